@@ -14,12 +14,12 @@
 
 #include "base/freed_memory.h"
 #include "base/input_error.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "cli/board/board.h"
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/camera/camera.h"
-#include "cli/common/memory.h"
 #include "cli/common/output.h"
 #include "cli/compare/compare_options.h"
 #include "cli/export/export.h"
@@ -187,10 +187,11 @@ namespace {
 
 /// Says what nobody has foreseen.
 ExitCode report(const std::exception& error, const std::string& command) {
-  if (is_out_of_memory(error)) {
-    print_line(no_memory(command,
-                         "fewer --threads or --jobs at once, a smaller picture or scan, fewer "
-                         "grains or frames"));
+  if (base::is_out_of_memory(error)) {
+    print_line(
+        base::no_memory(command,
+                        "fewer --threads or --jobs at once, a smaller picture or scan, fewer "
+                        "grains or frames"));
     return ExitCode::bad_input;
   }
   const std::string_view what = error.what();

@@ -6,12 +6,22 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/repose)
 
-# Users write <repose/vision/picture/picture.h>; the headers name each other without "repose/".
+# Users write <repose/measure.h> or <repose/vision/picture/picture.h>. The headers name each other
+# without "repose/", which install_headers.cmake puts before: include/repose itself is on nobody's path.
+file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/facade/*.h)
+foreach(module base vision dem render calibrate)
+  get_target_property(headers repose_${module} HEADER_SET)
+  list(APPEND public_headers ${headers})
+endforeach()
+set_property(GLOBAL PROPERTY repose_public_headers "${public_headers}")  # for tests/layers
+install(CODE "set(source \"${PROJECT_SOURCE_DIR}\")
+set(folder \"${CMAKE_INSTALL_INCLUDEDIR}\")
+set(headers \"${public_headers}\")")
+install(SCRIPT cmake/install_headers.cmake)
 foreach(module base vision dem render calibrate)
   install(TARGETS repose_${module}
     EXPORT repose_${module}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/repose
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT repose_${module}
     NAMESPACE repose:: DESTINATION ${package_folder} FILE repose_${module}.cmake)

@@ -17,7 +17,8 @@ add_test(NAME package
       -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
       -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
       -DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS}
-    --test-command stranger)
+      -DPHOTOS=${PROJECT_SOURCE_DIR}/samples/hazelnut/photos
+    --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
 set_tests_properties(package PROPERTIES FIXTURES_REQUIRED installed_package LABELS package)
 
 # The version from the repository, and the Debian package that has it.

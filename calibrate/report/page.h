@@ -1,11 +1,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibrate/report/document.h"
 
 namespace repose::calibrate::report {
+
+/// In every page that is written here, and in no other.
+inline constexpr std::string_view kPageMark = R"(<meta name="generator" content="repose)";
 
 /// A table with the name of its file.
 struct NamedTable {

@@ -132,7 +132,7 @@ void add_materials(const StudyRecord& record, const Stated& stated, Table& table
 
 std::string films_text(const StudyRecord& record, std::string_view experiment) {
   int films = 0, counted = 0;
-  for (const FilmReading& film : record.films) {
+  for (const FilmReading& film : record.measurement.films) {
     if (film.experiment != experiment) continue;
     ++films;
     counted += film.value ? 1 : 0;
@@ -146,7 +146,7 @@ std::string films_text(const StudyRecord& record, std::string_view experiment) {
 /// "10 readings", "mean of 10, scatter assumed".
 std::string measured_text(const StudyRecord& record, const dem::ExperimentEntry& entry,
                           const dem::Measured& measured) {
-  const std::size_t pictures = entry.is_pictured ? record.pictures.size() : 0;
+  const std::size_t pictures = entry.is_pictured ? record.measurement.pictures.size() : 0;
   if (pictures > 0) {
     const char* kind = measured.videos.empty() ? "photograph" : "film";
     const std::string heaps =
@@ -190,7 +190,7 @@ void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry
 
 /// What each film gave, or why it gave nothing.
 void add_films(const StudyRecord& record, Chapter& chapter) {
-  if (record.films.empty()) return;
+  if (record.measurement.films.empty()) return;
   Table table{.name = "films",
               .title =
                   "Films and the readings taken from them; ± is the half-width of the 95 % "
@@ -203,7 +203,7 @@ void add_films(const StudyRecord& record, Chapter& chapter) {
                                    {.name = "status", .unit = {}},
                                    {.name = "remark", .unit = {}}},
                        .rows = {}}};
-  for (const FilmReading& film : record.films) {
+  for (const FilmReading& film : record.measurement.films) {
     const auto if_read = [&](double value) {
       return cell(film.value ? std::optional(value) : std::nullopt);
     };

@@ -189,7 +189,7 @@ ReportedStudy read_reported_study(const fs::path& folder) {
                  "name the folder that repose calibrate --out wrote.");
   }
   const std::vector<PictureReading> pictures =
-      notes ? notes->pictures : decltype(notes->pictures){};
+      notes ? notes->measurement.pictures : std::vector<PictureReading>();
   std::optional<StudyRecord> record = record_in(folder);
   ReportedStudy study;
   if (result && (!notes || is_same_study(result->provenance.study, notes->study))) {

@@ -2,10 +2,14 @@
 
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "base/atomic_file.h"
+#include "base/file_set.h"
 #include "base/version.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/page.h"
@@ -127,6 +131,27 @@ Report study_report(const std::filesystem::path& folder) {
   Document document = document_of(study);
   put_heading(study, document);
   return report_of(std::move(document));
+}
+
+void write_report(const Report& report, const std::filesystem::path& page,
+                  const std::filesystem::path& tables, bool is_ours) {
+  if (!tables.empty()) {
+    std::vector<base::NamedText> files;
+    for (const CsvFile& table : report.tables) files.push_back({table.name, table.text});
+    base::write_file_set(tables, files, is_ours ? base::Unlisted::ours : base::Unlisted::users);
+  }
+  base::write_whole_file(page, report.html);
+}
+
+std::filesystem::path write_report(const std::filesystem::path& folder) {
+  const Report report = study_report(folder);
+  std::filesystem::path page = folder / "report.html";
+  const auto earlier = base::read_file_if_there(page);
+  if (earlier && !earlier->empty() && earlier->find(kPageMark) == std::string::npos) {
+    base::refuse(page, "already exists, and is no report of repose", "move it away.");
+  }
+  write_report(report, page, folder / "tables", true);
+  return page;
 }
 
 }  // namespace repose::calibrate::report

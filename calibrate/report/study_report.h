@@ -32,4 +32,17 @@ Report study_report(const StudyResult& result, const std::vector<PictureReading>
 /// @throws base::InputError  no such folder, no study in it, or a damaged file.
 Report study_report(const std::filesystem::path& folder);
 
+/// Writes the tables into a folder and then the page, each file whole or not at all.
+/// @param tables  empty: none are written
+/// @param is_ours  the folder of the tables is nobody else's: what an earlier version wrote there
+///   and did not list is replaced
+/// @throws base::InputError  a file cannot be written, or one there would be lost that was changed.
+void write_report(const Report& report, const std::filesystem::path& page,
+                  const std::filesystem::path& tables, bool is_ours);
+
+/// Writes FOLDER/report.html, and what its charts are drawn from as FOLDER/tables/*.csv.
+/// @return  the page
+/// @throws base::InputError  as study_report() and the above; or the page there is somebody's.
+std::filesystem::path write_report(const std::filesystem::path& folder);
+
 }  // namespace repose::calibrate::report

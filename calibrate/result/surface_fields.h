@@ -107,7 +107,9 @@ void fields(Io& io, Held<Io, SurfaceTarget>& target) {
   io("value", target.value);
   io("uncertainty", target.uncertainty);
   io("reached", target.is_reached);
-  by_name(io, "ranges", io.names().factors, target.ranges);
+  // A surface that does not reach it has none: an empty object.
+  const std::vector<std::string> none;
+  by_name(io, "ranges", target.is_reached ? io.names().factors : none, target.ranges);
   io("through_centre", target.through_centre);
   io("points", target.points);
 }

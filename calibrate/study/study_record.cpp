@@ -10,8 +10,8 @@
 #include "base/fingerprint.h"
 #include "base/input_error.h"
 #include "base/version.h"
+#include "calibrate/bench/bench_readings.h"
 #include "calibrate/experiment/run_store.h"
-#include "calibrate/study/bench_readings.h"
 
 namespace repose::calibrate {
 namespace {
@@ -116,9 +116,9 @@ Json notes_json(const StudyNotes& notes) {
           {"study", {{"file", study.file}, {"hash", study.hash}, {"settings", study.settings}}},
           {"method", study.method},
           {"budget", {{"name", study.budget}, {"description", study.budget_description}}},
-          {"pictures", pictures_json(notes.pictures)},
-          {"sheets", sheets_json(notes.sheets)},
-          {"films", films_json(notes.films)},
+          {"pictures", pictures_json(notes.measurement.pictures)},
+          {"sheets", sheets_json(notes.measurement.sheets)},
+          {"films", films_json(notes.measurement.films)},
           {"files", notes.fingerprints}};
 }
 
@@ -132,9 +132,10 @@ StudyNotes notes_in(const Json& json) {
                     .method = json.at("method"),
                     .budget = budget.at("name"),
                     .budget_description = budget.at("description")},
-          .pictures = pictures_in(json.at("pictures")),
-          .sheets = sheets_in(json.value("sheets", Json::array())),  // earlier versions had none
-          .films = films_in(json.value("films", Json::array())),     // nor these
+          // Earlier versions had no sheets, nor films.
+          .measurement = {.sheets = sheets_in(json.value("sheets", Json::array())),
+                          .pictures = pictures_in(json.at("pictures")),
+                          .films = films_in(json.value("films", Json::array()))},
           .fingerprints = json.value("files", std::map<std::string, std::string>())};
 }
 
@@ -153,15 +154,6 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .method = record.method,
           .budget = record.budget.name,
           .budget_description = record.budget.description};
-}
-
-dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
-                       const std::vector<PictureReading>& pictures,
-                       const std::vector<SheetReadings>& sheets,
-                       const std::vector<FilmReading>& films) {
-  // Films see the drag and leave it out themselves.
-  study = with_films(without_air(with_readings(std::move(study), sheets), grain), films);
-  return with_pictures(std::move(study), pictures);
 }
 
 namespace {
@@ -192,9 +184,7 @@ void write_study_record(const fs::path& folder, const StudyRecord& record) {
   const std::string study = base::read_whole_file(record.study.file);
   const std::string clump = dem::clump_json(record.grain);
   const StudyNotes notes{.study = identity_of(record),
-                         .pictures = record.pictures,
-                         .sheets = record.sheets,
-                         .films = record.films,
+                         .measurement = record.measurement,
                          .fingerprints = {{kStudyCopy, base::fingerprint({study})},
                                           {kClumpCopy, base::fingerprint({clump})}}};
   keep(folder / kStudyCopy, study);
@@ -224,13 +214,11 @@ StudyRecord read_study_record(const fs::path& folder) {
   record.settings = notes->study.settings;
   record.method = notes->study.method;
   record.budget = budget_named(notes->study.budget);
-  record.pictures = notes->pictures;
-  record.sheets = notes->sheets;
-  record.films = notes->films;
+  record.measurement = notes->measurement;
   record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));
   record.study =
       as_measured(dem::read_study_copy(kept(folder, kStudyCopy, *notes), record.settings),
-                  record.grain.shape, record.pictures, record.sheets, record.films);
+                  record.grain.shape, record.measurement);
   record.study.file = notes->study.file;
   record.study.hash = notes->study.hash;
   return record;

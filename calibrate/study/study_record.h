@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/study/bench_readings.h"
+#include "calibrate/bench/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"
@@ -39,9 +39,7 @@ bool is_same_study(const StudyIdentity& one, const StudyIdentity& other);
 /// What FOLDER/study.json holds.
 struct StudyNotes {
   StudyIdentity study;
-  std::vector<PictureReading> pictures;
-  std::vector<SheetReadings> sheets;
-  std::vector<FilmReading> films;  ///< earlier versions had none
+  Measurement measurement;
   /// Of study.toml and clump.json, by name; those of earlier versions have none.
   std::map<std::string, std::string> fingerprints;
 };
@@ -55,20 +53,10 @@ struct StudyRecord {
   std::vector<std::string> settings;  ///< laid over the study file
   std::string method;                 ///< "joint" or "paper"
   Budget budget;
-  std::vector<PictureReading> pictures;
-  std::vector<SheetReadings> sheets;
-  std::vector<FilmReading> films;
+  Measurement measurement;
 };
 
 StudyIdentity identity_of(const StudyRecord& record);
-
-/// The study as measured, from the study as read: readings of its sheets and films and angles of
-/// its pictures are its measured values, those of drops as without air (without_air).
-/// @throws base::InputError  see without_air.
-dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
-                       const std::vector<PictureReading>& pictures,
-                       const std::vector<SheetReadings>& sheets,
-                       const std::vector<FilmReading>& films);
 
 /// Writes FOLDER/study.toml (a copy), clump.json and study.json. The study's file must be there.
 /// @throws base::InputError  they cannot be written.

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <cstddef>
+#include <atomic>
+#include <optional>
 #include <string>
-#include <vector>
 
+#include "calibrate/run/run_study.h"
 #include "calibrate/study/job_runner.h"
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/common/output.h"
@@ -24,16 +25,15 @@ class StudyProgressLine {
   ProgressLine line_{"at most {} remaining"};
 };
 
-/// The value nearest to the mean of all, of which there is one at least; of equals the first.
-/// @return its number
-std::size_t most_typical(const std::vector<double>& values);
+/// What a study says on its way, on standard error: how far it is, and what to know.
+class StudyMessages {
+ public:
+  /// Lives as long as this.
+  calibrate::StudyWatch watch(const std::atomic<bool>& is_interrupted);
 
-/// Leaves the heaps of the last check in the study's folder, to look at and to compare with
-/// photographs: all in `heaps`, that of the most typical angle also as `heap.vtp`. Those of an
-/// earlier result go away: what is of other coefficients must not stand for these.
-/// @throws base::InputError  the folder cannot be written.
-void save_check_heaps(const CalibratePlan& plan, const calibrate::StudyContext& context,
-                      const std::vector<calibrate::Run>& checks);
+ private:
+  std::optional<StudyProgressLine> line_;
+};
 
 /// Carries out `repose calibrate`.
 ExitCode run_calibrate(const CalibrateArguments& arguments);

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "base/input_error.h"
+#include "calibrate/run/run_study.h"
 #include "calibrate/statistics/table/table.h"
-#include "calibrate/study/study_problem.h"
-#include "calibrate/study/study_record.h"
 #include "cli/common/command.h"
 
 namespace repose::cli {
@@ -31,19 +29,11 @@ struct CalibrateArguments {
 };
 
 /// What `repose calibrate` will do.
-struct CalibratePlan {
-  calibrate::StudyRecord record;
-  calibrate::StudyProblem problem;
-  int jobs = 1;
-  std::filesystem::path out_folder;
+struct CalibratePlan : calibrate::PreparedStudy {
   std::string json_file;
-
   std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know
 };
-
-/// Where a study is calibrated if nothing else is said: STUDY_calibration, here.
-std::filesystem::path default_folder(const std::filesystem::path& study_file);
 
 /// The study and what its bench gave, for a command that simulates in the study's folder: all of a
 /// plan but its problem.

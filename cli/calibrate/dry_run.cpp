@@ -129,7 +129,7 @@ std::string page_of(const CalibratePlan& plan, const AdaptiveTimestep& pace, int
   Page page(columns);
   page.add("Simulations of each experiment, for the fit + for the checks:");
   page.add_gap();
-  page.add(table_of(budgets, pace, plan.jobs));
+  page.add(table_of(budgets, pace, plan.threads));
   page.add_gap();
   for (const BudgetPlan& budget : budgets) {
     page.add(fmt::format("{}: {}.", budget.budget.name, budget.budget.description));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/result/candidates.h"
+#include "calibrate/run/run_study.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_options.h"
@@ -129,7 +130,7 @@ ExitCode run_rolling_models(const CalibrateArguments& arguments) {
   print_lines(errors);
   if (!errors.empty()) return ExitCode::bad_input;
   fs::path folder = arguments.out_folder;
-  if (folder.empty()) folder = default_folder(arguments.study);
+  if (folder.empty()) folder = calibrate::default_folder(arguments.study);
   std::vector<fs::path> folders;
   std::vector<calibrate::StudyResult> results;
   std::vector<calibrate::Candidate> candidates;

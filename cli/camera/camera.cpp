@@ -11,14 +11,15 @@
 #include <tbb/task_arena.h>
 
 #include "base/input_error.h"
+#include "base/memory.h"
 #include "cli/camera/camera_output.h"
-#include "cli/common/memory.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/terminal.h"
 #include "vision/camera/board.h"
 #include "vision/camera/lens_file.h"
+#include "vision/files/file_list.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
@@ -40,10 +41,7 @@ CameraPlan plan_camera(const CameraArguments& arguments) {
                                       "--square-mm 23.9, the side of a printed one")
                        .value_or(plan.square_mm);
   plan.threads = read_threads({"--threads", arguments.threads, plan.errors});
-  FileList list = list_pictures(arguments.pictures);
-  plan.pictures = std::move(list.files);
-  plan.notes = std::move(list.notes);
-  plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
+  plan.pictures = files_in(vision::list_pictures(arguments.pictures), plan.errors, plan.notes);
   if (arguments.out_file == kStandardOutput) {
     plan.errors.emplace_back("--out -: a camera file is read by its name. Fix: name a file.");
   }
@@ -79,9 +77,9 @@ Looks look_at_all(const CameraPlan& plan, const std::atomic<bool>& is_interrupte
       } catch (const base::InputError& error) {
         looks.errors[i] = error.what();
       } catch (const std::exception& error) {
-        if (!is_out_of_memory(error)) throw;
+        if (!base::is_out_of_memory(error)) throw;
         looks.errors[i] =
-            no_memory(plan.pictures[i].string(), "a smaller picture, or fewer --threads");
+            base::no_memory(plan.pictures[i].string(), "a smaller picture, or fewer --threads");
       }
       progress.report(i, 1);
     });

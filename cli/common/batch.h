@@ -4,10 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include "calibrate/bench/batch.h"
 #include "cli/common/terminal.h"
 
 namespace repose::cli {
@@ -21,27 +18,19 @@ struct Interrupted {};
 template <typename Result, typename One>
 std::vector<Result> batch_of(std::size_t count, int threads, const char* done_word,
                              const std::atomic<bool>& is_interrupted, const One& one) {
-  std::vector<Result> results(count);
   PartsProgress progress(count, done_word);
-  // The control holds for the parallel loops inside OpenCV too.
-  const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t number) {
-      const auto report = [&](double fraction) {
-        if (is_interrupted) throw Interrupted{};
-        progress.report(number, fraction);
-      };
-      try {
-        report(0);
-        results[number] = one(number, report);
-      } catch (const Interrupted&) {
-        return;
-      }
-    });
+  return calibrate::batch_of<Result>(count, threads, [&](std::size_t number) {
+    const auto report = [&](double fraction) {
+      if (is_interrupted) throw Interrupted{};
+      progress.report(number, fraction);
+    };
+    try {
+      report(0);
+      return one(number, report);
+    } catch (const Interrupted&) {
+      return Result{};
+    }
   });
-  return results;
 }
 
 }  // namespace repose::cli

@@ -17,7 +17,8 @@
 #include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "base/text.h"
-#include "cli/common/picture_list.h"
+#include "calibrate/report/page.h"
+#include "vision/files/file_list.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/made_here.h"
 
@@ -125,7 +126,7 @@ std::string error_of_name(const OutputPlace& place) {
     return {};
   }
   const bool is_other =
-      has_picture_ending(place.file) || vision::has_film_ending(place.file) ||
+      vision::has_picture_ending(place.file) || vision::has_film_ending(place.file) ||
       std::find(kOtherEndings.begin(), kOtherEndings.end(), ending) != kOtherEndings.end();
   if (!is_other) return {};
   return fmt::format("names of {} files are for another kind of file. Fix: a name that ends in {}.",
@@ -147,7 +148,7 @@ std::string error_of_earlier(const OutputPlace& place) {
     return {};
   }
   constexpr const char* kFix = "Fix: choose another name, or move it away.";
-  if (has_picture_ending(place.file)) {
+  if (vision::has_picture_ending(place.file)) {
     return vision::is_made_here(place.file)
                ? ""
                : fmt::format("already exists, and is not a picture written by repose. {}", kFix);
@@ -162,7 +163,9 @@ std::string error_of_earlier(const OutputPlace& place) {
   }
 }
 
-bool same_file(const fs::path& a, const fs::path& b) { return identity(a) == identity(b); }
+bool same_file(const fs::path& a, const fs::path& b) {
+  return vision::identity(a) == vision::identity(b);
+}
 
 }  // namespace
 
@@ -175,8 +178,7 @@ OutputPlace csv_place(const char* option, const std::string& file, std::string_v
 }
 
 OutputPlace page_place(const char* option, const std::string& file) {
-  constexpr std::string_view kGenerator = R"(<meta name="generator" content="repose)";
-  return {.option = option, .file = file, .ending = ".html", .mark = kGenerator};
+  return {.option = option, .file = file, .ending = ".html", .mark = calibrate::report::kPageMark};
 }
 
 void check_output_places(const std::vector<OutputPlace>& places,

@@ -26,6 +26,7 @@
 #include "render/scene/scene.h"
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/drawing/heap_sets_figure.h"
+#include "vision/files/file_list.h"
 #include "vision/hints/hint_file.h"
 
 namespace repose::cli {
@@ -92,7 +93,7 @@ vision::ReposeAngle measured(const ComparePlan& plan, const Task& task, render::
   }
   const std::filesystem::path& file = plan.sources[task.set].pictures[task.heap];
   const vision::Picture picture = vision::read_picture(file);
-  work.pixels[task.set][task.heap] = pixels_of(picture);
+  work.pixels[task.set][task.heap] = vision::pixels_of(picture);
   const vision::PictureSettings told =
       vision::with_saved_hints({.measuring = options, .scale = {}}, file);
   vision::SizedHeap heap = vision::measure_sized_heap(picture, told.measuring, told.scale);
@@ -145,7 +146,7 @@ void drop_copies(ComparePlan& plan, Work& work) {
     pixels.insert(pixels.end(), work.pixels[set].begin(), work.pixels[set].end());
   }
   const std::size_t first_size = files_of(plan.sources[0]).size();
-  const auto first_of = copies_among(files, pixels);
+  const auto first_of = vision::copies_among(files, pixels);
   std::array<std::vector<std::filesystem::path>, 2> kept;
   std::array<std::vector<SeenHeap>, 2> heaps;
   std::set<std::size_t> in_second;
@@ -154,7 +155,7 @@ void drop_copies(ComparePlan& plan, Work& work) {
     const std::size_t same = first_of[i].value_or(i);
     const bool is_repeated = set == 0 ? same != i : !in_second.insert(same).second;
     if (is_repeated) {
-      print_line(text_of_copy(files[i], files[same]));
+      print_line(vision::text_of_copy(files[i], files[same]));
       continue;
     }
     if (set == 1 && same < first_size) ++plan.in_both;
@@ -182,8 +183,8 @@ void group_by_name(ComparePlan& plan, Work& work) {
     std::vector<std::filesystem::path> firsts;
     std::vector<SeenHeap> heaps;
     for (std::size_t i = 0; i < source.pictures.size(); ++i) {
-      const std::string name = heap_by_name(source.pictures[i]);
-      const auto same = std::ranges::find(firsts, name, heap_by_name);
+      const std::string name = vision::heap_by_name(source.pictures[i]);
+      const auto same = std::ranges::find(firsts, name, vision::heap_by_name);
       SeenHeap& seen = work.sets[set][i];
       if (same == firsts.end()) {
         firsts.push_back(source.pictures[i]);

@@ -10,9 +10,9 @@
 #include "calibrate/study/study_record.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
-#include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
 #include "cli/compare/compare.h"
+#include "vision/files/file_list.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/scale_bar.h"
 
@@ -37,7 +37,7 @@ std::vector<fs::path> files_of(const fs::path& folder, const Wanted& is_wanted) 
 }
 
 bool is_picture(const fs::path& file) {
-  return has_picture_ending(file) && !is_overlay_of_state(file);
+  return vision::has_picture_ending(file) && !vision::is_overlay_of_state(file);
 }
 
 bool is_heap_state(const fs::path& file) {

@@ -16,9 +16,9 @@
 #include <tbb/parallel_pipeline.h>
 
 #include "base/input_error.h"
+#include "base/memory.h"
 #include "calibrate/report/measure_report.h"
 #include "cli/common/batch.h"
-#include "cli/common/memory.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/terminal.h"
@@ -27,6 +27,7 @@
 #include "cli/measure/measure_table.h"
 #include "cli/measure/summary.h"
 #include "vision/drawing/overlay.h"
+#include "vision/files/file_list.h"
 #include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
 #include "vision/picture/made_here.h"
@@ -80,12 +81,13 @@ void attempt(MeasuredPicture& measured, const Work& work) {
     measured.outcome = Outcome::bad_input;
     measured.error = naming_file(measured.file, base::text_of(error.faults(), kMeasureFields));
   } catch (const std::exception& error) {
-    const bool is_too_large = is_out_of_memory(error);
+    const bool is_too_large = base::is_out_of_memory(error);
     measured.outcome = is_too_large ? Outcome::bad_input : Outcome::internal_error;
-    measured.error = is_too_large ? no_memory(measured.file,
-                                              "a smaller picture (800 pixels a side are as good), "
-                                              "or fewer --threads")
-                                  : naming_file(measured.file, error.what());
+    measured.error = is_too_large
+                         ? base::no_memory(measured.file,
+                                           "a smaller picture (800 pixels a side are as good), "
+                                           "or fewer --threads")
+                         : naming_file(measured.file, error.what());
   }
 }
 
@@ -257,7 +259,7 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
   attempt(measured.front(), [&] {
     const vision::Picture picture = vision::read_picture(file);
     MeasuredPicture& one = measured.front();
-    one.pixels = pixels_of(picture);
+    one.pixels = vision::pixels_of(picture);
     one.told = vision::with_saved_hints({plan.options, plan.scale}, file);
     vision::SizedHeap heap =
         vision::measure_sized_heap(picture, one.told.measuring, one.told.scale);
@@ -321,11 +323,11 @@ void name_copies(std::vector<MeasuredPicture>& pictures) {
     files.emplace_back(picture.file);
     pixels.push_back(picture.pixels);
   }
-  const auto first_of = copies_among(files, pixels);
+  const auto first_of = vision::copies_among(files, pixels);
   for (std::size_t i = 0; i < whole.size(); ++i) {
     if (!first_of[i]) continue;
     whole[i]->copy_of = files[*first_of[i]].string();
-    print_line(text_of_copy(files[i], files[*first_of[i]]));
+    print_line(vision::text_of_copy(files[i], files[*first_of[i]]));
   }
 }
 
@@ -400,7 +402,7 @@ ExitCode run_measure(const MeasureArguments& arguments) {
   }
   name_copies(pictures);
   if (arguments.groups_by_name) {
-    for (MeasuredPicture& picture : pictures) picture.heap = heap_by_name(picture.file);
+    for (MeasuredPicture& picture : pictures) picture.heap = vision::heap_by_name(picture.file);
   }
   name_outliers(pictures);
   Outputs outputs = results_of(pictures, arguments);

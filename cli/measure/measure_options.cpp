@@ -11,6 +11,7 @@
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
 #include "cli/measure/measure.h"
+#include "vision/files/file_list.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/picture.h"
 
@@ -24,7 +25,7 @@ void check_overlay_folder(const MeasureArguments& arguments, MeasurePlan& plan) 
   const fs::path folder = arguments.overlay_folder;
   const auto is_measured = [&](const std::string& name) {
     std::error_code ignored;
-    return fs::is_directory(name, ignored) && identity(name) == identity(folder);
+    return fs::is_directory(name, ignored) && vision::identity(name) == vision::identity(folder);
   };
   if (std::any_of(arguments.pictures.begin(), arguments.pictures.end(), is_measured)) {
     plan.errors.push_back(
@@ -105,11 +106,9 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   }
 
   plan.frames_per_s = read_frame_rate(arguments.fps, arguments.pictures, plan.errors);
-  FileList list = plan.frames_per_s ? list_with_frame_folders(arguments.pictures)
-                                    : list_pictures_and_films(arguments.pictures);
-  plan.pictures = std::move(list.files);
-  plan.notes = std::move(list.notes);
-  plan.errors.insert(plan.errors.end(), list.errors.begin(), list.errors.end());
+  plan.pictures = files_in(plan.frames_per_s ? vision::list_with_frame_folders(arguments.pictures)
+                                             : vision::list_pictures_and_films(arguments.pictures),
+                           plan.errors, plan.notes);
   read_step(arguments, plan);
   const std::vector<OutputPlace> places = {
       json_place(arguments.json_file, "\"ground_tilt_deg\""),

@@ -82,7 +82,7 @@ std::optional<calibrate::Plan> plan_of(const PlanOptions& options,
   calibrate::StudySimulator simulator(options.offered.study, options.study.record.grain,
                                       options.offered.problem.parameters);
   simulator.store_in(folder);
-  calibrate::ThreadExecutor executor(simulator, options.study.jobs);
+  calibrate::ThreadExecutor executor(simulator, options.study.threads);
   StudyProgressLine line;
   return make_plan(options.offered,
                    {simulator, folder, executor, watch_for_interrupt(),
@@ -97,9 +97,8 @@ ExitCode run_plan(const PlanArguments& arguments) {
   print_lines(options.study.errors);
   if (!options.study.errors.empty()) return ExitCode::bad_input;
   print_lines(options.study.notes);
-  const calibrate::RunStore folder(options.study.out_folder);
-  const base::FolderLock lock(options.study.out_folder,
-                              calibrate::lock_file_in(options.study.out_folder));
+  const calibrate::RunStore folder(options.study.folder);
+  const base::FolderLock lock(options.study.folder, calibrate::lock_file_in(options.study.folder));
   const std::optional<calibrate::Plan> plan = plan_of(options, folder);
   print_lines(folder.remarks());
   if (!plan) {

@@ -7,8 +7,6 @@
 #include <system_error>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/file_set.h"
 #include "base/input_error.h"
 #include "base/text.h"
 #include "calibrate/report/study_report.h"
@@ -35,8 +33,9 @@ std::vector<fs::path> files_read(const fs::path& folder) {
     files.push_back(entry->path());
   }
   if (const auto notes = calibrate::read_study_notes(folder)) {
-    for (const calibrate::PictureReading& picture : notes->pictures) files.push_back(picture.file);
-    for (const calibrate::FilmReading& film : notes->films) files.push_back(film.file);
+    for (const calibrate::PictureReading& picture : notes->measurement.pictures)
+      files.push_back(picture.file);
+    for (const calibrate::FilmReading& film : notes->measurement.films) files.push_back(film.file);
   }
   return files;
 }
@@ -69,15 +68,7 @@ ExitCode run_report(const ReportArguments& arguments) {
     print_line("interrupted, no report was written");
     return ExitCode::interrupted;
   }
-  if (!tables.empty()) {
-    std::vector<base::NamedText> files;
-    for (const calibrate::report::CsvFile& table : report.tables) {
-      files.push_back({table.name, table.text});
-    }
-    const bool is_ours = arguments.tables_folder.empty();
-    base::write_file_set(tables, files, is_ours ? base::Unlisted::ours : base::Unlisted::users);
-  }
-  base::write_whole_file(page, report.html);
+  write_report(report, page, tables, arguments.tables_folder.empty());
   Outputs outputs;
   outputs.show(base::printable(page.string()) + '\n');
   outputs.write();

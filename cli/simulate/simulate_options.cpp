@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "calibrate/bench/bench_readings.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/statistics/summary.h"
-#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"

@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/memory.h"
 #include "cli/common/batch.h"
-#include "cli/common/memory.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
@@ -21,50 +21,22 @@
 #include "cli/track/track_output.h"
 #include "cli/track/track_table.h"
 #include "vision/drawing/track_overlays.h"
+#include "vision/files/file_list.h"
 
 namespace repose::cli {
 
 namespace {
 
-/// What is read of the track of the experiment that was filmed.
-template <typename Read>
-decltype(auto) of_track(const TrackedFilm& film, const Read& read) {
-  switch (film.filmed) {
-    case Filmed::drop:
-      return read(film.drop);
-    case Filmed::roll:
-      return read(film.roll);
-    case Filmed::tilt:
-      break;
-  }
-  return read(film.tilt);
-}
-
 vision::Picture overlay_of(const TrackedFilm& film, const std::string& title) {
   switch (film.filmed) {
-    case Filmed::drop:
+    case vision::Filmed::drop:
       return vision::draw_drop_overlay(film.drop, title);
-    case Filmed::roll:
+    case vision::Filmed::roll:
       return vision::draw_roll_overlay(film.roll, title);
-    case Filmed::tilt:
+    case vision::Filmed::tilt:
       break;
   }
   return vision::draw_tilt_overlay(film.tilt, title);
-}
-
-void track(const vision::FilmFile& film, const vision::TrackOptions& options,
-           TrackedFilm& tracked) {
-  switch (tracked.filmed) {
-    case Filmed::drop:
-      tracked.drop = vision::track_drop(film, options);
-      break;
-    case Filmed::roll:
-      tracked.roll = vision::track_roll(film, options);
-      break;
-    case Filmed::tilt:
-      tracked.tilt = vision::track_tilt(film, options);
-      break;
-  }
 }
 
 void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
@@ -78,7 +50,9 @@ void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
 
 TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
                       const std::function<void(double)>& progress) {
-  TrackedFilm tracked{.file = plan.videos[index].string(), .filmed = plan.filmed};
+  TrackedFilm tracked;
+  tracked.file = plan.videos[index].string();
+  tracked.filmed = plan.filmed;
   try {
     vision::TrackOptions options{.scale = plan.scale.scale,
                                  .released_mm = plan.released_mm,
@@ -87,53 +61,22 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
     if (plan.scale.finds_board) {
       options.board = vision::BoardPlacing{plan.scale.square_mm, plan.scale.board_offset_mm};
     }
-    track({plan.videos[index], plan.frames_per_s, plan.scale.lens}, options, tracked);
+    static_cast<vision::FilmTrack&>(tracked) = vision::track_film(
+        plan.filmed, {plan.videos[index], plan.frames_per_s, plan.scale.lens}, options);
     if (!plan.overlays.empty()) draw(plan, index, tracked);
-    tracked.drop.strobe = {};
-    tracked.roll.strobe = {};
-    tracked.tilt.strobe = {};
+    drop_strobe(tracked);
   } catch (const base::InputError& error) {
     tracked.error = naming_file(tracked.file, error.what());
   } catch (const std::exception& error) {
-    tracked.is_internal_error = !is_out_of_memory(error);
+    tracked.is_internal_error = !base::is_out_of_memory(error);
     tracked.error = tracked.is_internal_error
                         ? naming_file(tracked.file, error.what())
-                        : no_memory(tracked.file, "a smaller film, or fewer --threads");
+                        : base::no_memory(tracked.file, "a smaller film, or fewer --threads");
   }
   return tracked;
 }
 
 }  // namespace
-
-vision::MeasureStatus status_of(const TrackedFilm& film) {
-  return of_track(film, [](const auto& track) { return track.status; });
-}
-
-const std::string& reason_of(const TrackedFilm& film) {
-  return of_track(film, [](const auto& track) -> const std::string& { return track.reason; });
-}
-
-const std::vector<vision::Warning>& warnings_of(const TrackedFilm& film) {
-  return of_track(film, [](const auto& track) -> const std::vector<vision::Warning>& {
-    return track.warnings;
-  });
-}
-
-const vision::FilmFacts& facts_of(const TrackedFilm& film) {
-  return of_track(film, [](const auto& track) -> const vision::FilmFacts& { return track.film; });
-}
-
-bool has_reading(const TrackedFilm& film) {
-  switch (film.filmed) {
-    case Filmed::drop:
-      return !film.drop.bounces.empty();
-    case Filmed::roll:
-      return film.roll.has_reading;
-    case Filmed::tilt:
-      break;
-  }
-  return film.tilt.has_reading;
-}
 
 std::vector<TrackedFilm> track_batch(const TrackPlan& plan,
                                      const std::atomic<bool>& is_interrupted) {
@@ -156,11 +99,11 @@ void print_errors(const std::vector<TrackedFilm>& films) {
 void name_copies(std::vector<TrackedFilm>& films) {
   std::vector<std::filesystem::path> files;
   for (const TrackedFilm& film : films) files.emplace_back(film.file);
-  const auto first_of = copies_among(files, std::vector<std::string>(files.size()));
+  const auto first_of = vision::copies_among(files, std::vector<std::string>(files.size()));
   for (std::size_t i = 0; i < films.size(); ++i) {
     if (!first_of[i]) continue;
     films[i].copy_of = films[*first_of[i]].file;
-    print_line(text_of_copy(files[i], files[*first_of[i]]));
+    print_line(vision::text_of_copy(files[i], files[*first_of[i]]));
   }
 }
 
@@ -214,16 +157,16 @@ void read_own_options(const TrackArguments& arguments, TrackPlan& plan) {
   const auto belongs = [&](bool does, const std::string& given, const char* message) {
     if (!does && !given.empty()) plan.errors.emplace_back(message);
   };
-  belongs(plan.filmed == Filmed::roll, arguments.released,
+  belongs(plan.filmed == vision::Filmed::roll, arguments.released,
           "--released: is for track roll. Fix: leave it out.");
-  belongs(plan.filmed == Filmed::drop, arguments.bounces,
+  belongs(plan.filmed == vision::Filmed::drop, arguments.bounces,
           "--bounces: is for track drop. Fix: leave it out.");
   const bool has_scale = !arguments.scale.scale.empty() || arguments.scale.finds_board;
-  belongs(plan.filmed != Filmed::tilt, arguments.scale.scale,
+  belongs(plan.filmed != vision::Filmed::tilt, arguments.scale.scale,
           "--scale: is for track drop and roll; angles need none. Fix: leave it out.");
-  belongs(plan.filmed != Filmed::tilt, arguments.scale.finds_board ? "--board" : "",
+  belongs(plan.filmed != vision::Filmed::tilt, arguments.scale.finds_board ? "--board" : "",
           "--board: is for track drop and roll; angles need no scale. Fix: leave it out.");
-  if (plan.filmed == Filmed::roll && has_scale == !arguments.released.empty()) {
+  if (plan.filmed == vision::Filmed::roll && has_scale == !arguments.released.empty()) {
     plan.errors.push_back(fmt::format(
         "track roll: {}. Rule: millimetres come from --scale, --board or --released. Fix: --scale "
         "X1,Y1,X2,Y2,MM of a ruler beside the way, --board with the printed board there, or "
@@ -255,11 +198,13 @@ void read_overlay(const TrackArguments& arguments, TrackPlan& plan,
 
 TrackPlan plan_track(const TrackArguments& arguments) {
   TrackPlan plan;
-  plan.filmed =
-      read_choice<Filmed>({"track", arguments.experiment, plan.errors},
-                          {{"drop", Filmed::drop}, {"roll", Filmed::roll}, {"tilt", Filmed::tilt}})
-          .value_or(plan.filmed);
-  for (const std::string& video : arguments.videos) plan.videos.push_back(without_slash(video));
+  plan.filmed = read_choice<vision::Filmed>({"track", arguments.experiment, plan.errors},
+                                            {{"drop", vision::Filmed::drop},
+                                             {"roll", vision::Filmed::roll},
+                                             {"tilt", vision::Filmed::tilt}})
+                    .value_or(plan.filmed);
+  for (const std::string& video : arguments.videos)
+    plan.videos.push_back(vision::without_slash(video));
   plan.frames_per_s = read_frame_rate(arguments.fps, arguments.videos, plan.errors);
   plan.scale =
       read_scale(arguments.scale, "--scale 310,95,310,980,500, of a ruler in the grain's plane",

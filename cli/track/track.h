@@ -9,10 +9,7 @@
 #include "cli/common/command.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_options.h"
-#include "vision/track/drop_track.h"
-#include "vision/track/roll_track.h"
-#include "vision/track/tilt_track.h"
-#include "vision/track/track.h"
+#include "vision/track/film_track.h"
 
 namespace repose::cli {
 
@@ -33,12 +30,9 @@ struct TrackArguments {
 /// Carries out `repose track`.
 ExitCode run_track(const TrackArguments& arguments);
 
-/// The experiments that films are read of.
-enum class Filmed { drop, roll, tilt };
-
 /// A `repose track` that can be carried out.
 struct TrackPlan {
-  Filmed filmed = Filmed::drop;
+  vision::Filmed filmed = vision::Filmed::drop;
   std::vector<std::filesystem::path> videos;
   std::vector<std::filesystem::path> overlays;  ///< one a film, or none
   vision::ScaleOptions scale;
@@ -54,24 +48,14 @@ struct TrackPlan {
 /// Reads and checks all that was typed, also whether the output can be written. All errors at once.
 TrackPlan plan_track(const TrackArguments& arguments);
 
-struct TrackedFilm {
+/// Its track is without the strobe picture, which is large.
+struct TrackedFilm : vision::FilmTrack {
   std::string file;
-  std::string error = {};    ///< why it could not be read; empty: its track says
-  std::string copy_of = {};  ///< an earlier film of the same bytes; empty: it is no copy
+  std::string error;    ///< why it could not be read; empty: its track says
+  std::string copy_of;  ///< an earlier film of the same bytes; empty: it is no copy
   bool is_internal_error = false;
-  Filmed filmed = Filmed::drop;
-  vision::DropTrack drop = {};  ///< of what was filmed, without the
-  vision::RollTrack roll = {};  ///< strobe picture, which is large
-  vision::TiltTrack tilt = {};
-  std::string overlay_error = {};  ///< why there is no overlay
+  std::string overlay_error;  ///< why there is no overlay
 };
-
-/// What every track has.
-vision::MeasureStatus status_of(const TrackedFilm& film);
-const std::string& reason_of(const TrackedFilm& film);
-const std::vector<vision::Warning>& warnings_of(const TrackedFilm& film);
-const vision::FilmFacts& facts_of(const TrackedFilm& film);
-bool has_reading(const TrackedFilm& film);
 
 /// Tracks the plan's films, several at a time; in the plan's order, and the same at any number of
 /// threads. Stops in the middle of a film when `is_interrupted`; the result is then worth nothing.

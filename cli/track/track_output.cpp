@@ -75,8 +75,8 @@ std::string tilt_row(const TrackedFilm& film) {
 }  // namespace
 
 std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& plan) {
-  if (plan.filmed != Filmed::drop) {
-    const bool rolls = plan.filmed == Filmed::roll;
+  if (plan.filmed != vision::Filmed::drop) {
+    const bool rolls = plan.filmed == vision::Filmed::roll;
     std::string csv = rolls ? kRollHeader : kTiltHeader;
     for (const TrackedFilm& film : films) {
       if (film.copy_of.empty() && has_reading(film)) csv += rolls ? roll_row(film) : tilt_row(film);
@@ -99,13 +99,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* filmed_name(Filmed filmed) {
+const char* filmed_name(vision::Filmed filmed) {
   switch (filmed) {
-    case Filmed::drop:
+    case vision::Filmed::drop:
       return "drop";
-    case Filmed::roll:
+    case vision::Filmed::roll:
       return "roll";
-    case Filmed::tilt:
+    case vision::Filmed::tilt:
       break;
   }
   return "tilt";
@@ -224,11 +224,11 @@ Json tilt_track_json(const vision::TiltTrack& tilt) {
 /// What only the films of one experiment have.
 void add_readings(const TrackedFilm& film, Json& json) {
   const bool has_track = has_reading(film);
-  if (film.filmed == Filmed::drop) {
+  if (film.filmed == vision::Filmed::drop) {
     json["bounces"] = bounces_json(film.drop.bounces);
     json["unread_bounces"] = unread_bounces_json(film.drop.unread_bounces);
     json["track"] = has_track ? drop_track_json(film.drop) : Json();
-  } else if (film.filmed == Filmed::roll) {
+  } else if (film.filmed == vision::Filmed::roll) {
     json["roll"] = has_track ? roll_json(film.roll) : Json();
     json["track"] = has_track ? roll_track_json(film.roll) : Json();
   } else {

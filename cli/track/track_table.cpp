@@ -105,11 +105,11 @@ void add_tilt(Table& table, const TrackedFilm& film, bool has_colour) {
 
 void add_film(Table& table, const TrackedFilm& film, bool has_colour) {
   switch (film.filmed) {
-    case Filmed::drop:
+    case vision::Filmed::drop:
       return add_drop(table, film, has_colour);
-    case Filmed::roll:
+    case vision::Filmed::roll:
       return add_roll(table, film, has_colour);
-    case Filmed::tilt:
+    case vision::Filmed::tilt:
       return add_tilt(table, film, has_colour);
   }
 }
@@ -117,21 +117,21 @@ void add_film(Table& table, const TrackedFilm& film, bool has_colour) {
 /// What the mean of several films is taken of.
 double value_of(const TrackedFilm& film) {
   switch (film.filmed) {
-    case Filmed::drop:
+    case vision::Filmed::drop:
       return film.drop.bounces.front().restitution.value;
-    case Filmed::roll:
+    case vision::Filmed::roll:
       return film.roll.stopped_mm.value;
-    case Filmed::tilt:
+    case vision::Filmed::tilt:
       break;
   }
   return film.tilt.angle_deg.value;
 }
 
-std::string mean_text(const std::vector<TrackedFilm>& films, Filmed filmed) {
+std::string mean_text(const std::vector<TrackedFilm>& films, vision::Filmed filmed) {
   std::vector<double> values;
   for (const TrackedFilm& film : films) {
     if (film.copy_of.empty() && has_reading(film) &&
-        (filmed != Filmed::drop || film.drop.has_first_bounce())) {
+        (filmed != vision::Filmed::drop || film.drop.has_first_bounce())) {
       values.push_back(value_of(film));
     }
   }
@@ -142,12 +142,12 @@ std::string mean_text(const std::vector<TrackedFilm>& films, Filmed filmed) {
                        summary.n, of, summary.mean, summary.mean_uncertainty.value_or(0),
                        summary.sd.value_or(0), decimals, unit);
   };
-  if (filmed == Filmed::tilt) return text("tilts", 2, "°");
-  return filmed == Filmed::drop ? text("first bounces", 3, "") : text("rolls", 1, " mm");
+  if (filmed == vision::Filmed::tilt) return text("tilts", 2, "°");
+  return filmed == vision::Filmed::drop ? text("first bounces", 3, "") : text("rolls", 1, " mm");
 }
 
-Table empty_table(Filmed filmed) {
-  if (filmed == Filmed::drop) {
+Table empty_table(vision::Filmed filmed) {
+  if (filmed == vision::Filmed::drop) {
     return Table({{.heading = "film"},
                   number_column("bounce"),
                   number_column("time [s]"),
@@ -156,7 +156,7 @@ Table empty_table(Filmed filmed) {
                   {.heading = "rebound [mm]"},
                   {.heading = "status"}});
   }
-  if (filmed == Filmed::tilt) {
+  if (filmed == vision::Filmed::tilt) {
     return Table({{.heading = "film"},
                   {.heading = "slides at [°]"},
                   {.heading = "rate [°/s]"},
@@ -173,7 +173,7 @@ Table empty_table(Filmed filmed) {
 
 }  // namespace
 
-std::string track_table(const std::vector<TrackedFilm>& films, Filmed filmed, int columns,
+std::string track_table(const std::vector<TrackedFilm>& films, vision::Filmed filmed, int columns,
                         bool has_colour) {
   Table table = empty_table(filmed);
   for (const TrackedFilm& film : films) add_film(table, film, has_colour);

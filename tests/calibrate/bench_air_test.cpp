@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "base/air_drag.h"
-#include "calibrate/study/bench_readings.h"
+#include "calibrate/bench/bench_readings.h"
 #include "calibrate/study/study_record.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
@@ -35,7 +35,9 @@ class BenchAir : public ::testing::Test {
   static dem::Measured drops(const dem::Study& study, const std::vector<FilmReading>& films = {}) {
     const dem::ClumpFile grain = dem::build_grain(study.grain);
     return dem::measured_in(
-        as_measured(study, grain.shape, {}, read_sheets(study, NoRows::refused), films),
+        as_measured(
+            study, grain.shape,
+            {.sheets = read_sheets(study, NoRows::refused), .pictures = {}, .films = films}),
         dem::Experiment::drop);
   }
 

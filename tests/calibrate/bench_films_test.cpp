@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "base/distributions.h"
-#include "calibrate/study/bench_readings.h"
+#include "calibrate/bench/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/experiment_table.h"
 #include "dem/study/grain_source.h"

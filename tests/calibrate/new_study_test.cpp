@@ -9,8 +9,8 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/bench/bench_readings.h"
 #include "calibrate/start/usual_experiment.h"
-#include "calibrate/study/bench_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/study.h"
 #include "tests/support/error_of.h"

@@ -69,6 +69,26 @@ TEST(Result, OfASurfaceThatIsNowhereLevelComesBack) {
   EXPECT_TRUE(result_from_json(text, kName) == result);
 }
 
+TEST(Result, OfASurfaceThatDoesNotReachTheReadingComesBack) {
+  StudyResult result = test::joint_result();
+  int changed = 0;
+  for (ObservableSurface& observable : joint_in(result).regressions) {
+    if (!observable.regression || !observable.regression->target) continue;
+    const double value = observable.regression->target->value;
+    observable.regression->target = SurfaceTarget{.value = value,
+                                                  .uncertainty = 0,
+                                                  .is_reached = false,
+                                                  .ranges = {},
+                                                  .through_centre = {},
+                                                  .points = {}};
+    ++changed;
+  }
+  ASSERT_GT(changed, 0);
+  const std::string text = to_json(result);
+  EXPECT_THAT(text, HasSubstr("\"ranges\": {}"));
+  EXPECT_TRUE(result_from_json(text, kName) == result);
+}
+
 TEST(Result, OfAnEarlierVersionHasNoShapeCheckAndIsRead) {
   StudyResult result = test::joint_result();
   joint_in(result).shape_check.reset();

@@ -43,20 +43,19 @@ stiffness_factor = 0.5
     const std::vector<std::string> settings = {"particle.density_kg_m3 = 700"};
     StudyRecord record;
     record.budget = budget_named("quick");
-    record.pictures = {
+    record.measurement.pictures = {
         {.file = "/photos/a.jpg", .status = "ok", .angle_deg = 24.125, .reason = {}},
         {.file = "/photos/b.jpg", .status = "refused", .angle_deg = {}, .reason = "no \"heap\""}};
-    record.films = {{.experiment = "drop",
-                     .file = "/films/a.mp4",
-                     .status = "flagged",
-                     .value = 88.5,
-                     .uncertainty = 3.5,
-                     .reason = "ends early"}};
+    record.measurement.films = {{.experiment = "drop",
+                                 .file = "/films/a.mp4",
+                                 .status = "flagged",
+                                 .value = 88.5,
+                                 .uncertainty = 3.5,
+                                 .reason = "ends early"}};
     record.study = dem::read_study(folder_.path() / "study.toml", settings);
-    record.sheets = read_sheets(record.study, NoRows::refused);
+    record.measurement.sheets = read_sheets(record.study, NoRows::refused);
     record.grain = dem::build_grain(record.study.grain);
-    record.study =
-        as_measured(record.study, record.grain.shape, record.pictures, record.sheets, record.films);
+    record.study = as_measured(record.study, record.grain.shape, record.measurement);
     record.settings = settings;
     record.method = "joint";
     return record;
@@ -79,15 +78,15 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
             dem::model_for(written.study, dem::Experiment::heap).stiffness_factor);
   EXPECT_THAT(dem::measured_in(read.study, dem::Experiment::heap).values, ElementsAre(24.125));
   EXPECT_THAT(dem::measured_in(read.study, dem::Experiment::tilt).values, ElementsAre(20, 21));
-  EXPECT_EQ(read.sheets.at(0).rows, 2);
+  EXPECT_EQ(read.measurement.sheets.at(0).rows, 2);
   EXPECT_EQ(read.budget.name, "quick");
   EXPECT_THAT(read.grain.shape.spheres, SizeIs(1));
-  ASSERT_THAT(read.pictures, SizeIs(2));
-  EXPECT_EQ(read.pictures[0].angle_deg, 24.125);
-  EXPECT_EQ(read.pictures[1].reason, "no \"heap\"");
-  ASSERT_THAT(read.films, SizeIs(1));
-  EXPECT_EQ(read.films[0].value, 88.5);
-  EXPECT_EQ(read.films[0].uncertainty, 3.5);
+  ASSERT_THAT(read.measurement.pictures, SizeIs(2));
+  EXPECT_EQ(read.measurement.pictures[0].angle_deg, 24.125);
+  EXPECT_EQ(read.measurement.pictures[1].reason, "no \"heap\"");
+  ASSERT_THAT(read.measurement.films, SizeIs(1));
+  EXPECT_EQ(read.measurement.films[0].value, 88.5);
+  EXPECT_EQ(read.measurement.films[0].uncertainty, 3.5);
   EXPECT_EQ(problem_of(read.study, read.grain, read.budget).problem.observables.size(), 3U);
 }
 
@@ -102,7 +101,8 @@ TEST_F(StudyRecordTest, PicturesOfOneHeapCountOnceAndShareTheirCamera) {
                           .camera_deg = .98,
                           .heap = heap};
   };
-  written.pictures = {picture("a1", "a", 23), picture("a2", "a", 25), picture("b1", "", 26)};
+  written.measurement.pictures = {picture("a1", "a", 23), picture("a2", "a", 25),
+                                  picture("b1", "", 26)};
   write_study_record(saved(), written);
   const StudyRecord read = read_study_record(saved());
   const dem::Measured heap = dem::measured_in(read.study, dem::Experiment::heap);

@@ -389,7 +389,7 @@ TEST_F(Calibrate, PicturesAreReadByTheDefinitionOfTheStudy) {
     arguments.settings = settings;
     const cli::CalibratePlan plan = cli::read_bench(arguments, calibrate::NoRows::refused);
     EXPECT_THAT(plan.errors, IsEmpty());
-    return plan.record.pictures.at(0).angle_deg.value();
+    return plan.record.measurement.pictures.at(0).angle_deg.value();
   };
   const auto by = [&](const char* name) {
     return vision::angle_by(measured, name).value() * 180 / std::numbers::pi;

@@ -1,8 +1,8 @@
+#include "calibrate/run/check_heaps.h"
+
 #include <gmock/gmock.h>
 
-#include "cli/calibrate/calibrate.h"
-
-namespace repose::cli {
+namespace repose::calibrate {
 namespace {
 
 TEST(MostTypical, IsTheOneNearestToTheMeanOfAll) {
@@ -16,4 +16,4 @@ TEST(MostTypical, IsTheFirstOfThoseEquallyNear) {
 }
 
 }  // namespace
-}  // namespace repose::cli
+}  // namespace repose::calibrate

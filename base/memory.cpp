@@ -1,11 +1,11 @@
-#include "cli/common/memory.h"
+#include "base/memory.h"
 
 #include <new>
 #include <string_view>
 
 #include <fmt/format.h>
 
-namespace repose::cli {
+namespace repose::base {
 
 bool is_out_of_memory(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
@@ -19,4 +19,4 @@ std::string no_memory(const std::string& what, const std::string& fix) {
       what, fix);
 }
 
-}  // namespace repose::cli
+}  // namespace repose::base

@@ -13,19 +13,14 @@
 #include "dem/study/experiment_table.h"
 #include "dem/study/study.h"
 
-/// Readings count for an experiment only where the bench was set as the study says.
+/// What a study's bench gave: sheets of readings (measured = { readings = "drops.csv" }), films of
+/// experiments (measured = { videos = ["drops"] }), photographs and films of heaps. Readings count
+/// for an experiment only where the bench was set as the study says. Grains are dropped in air, and
+/// simulated without it.
 
 namespace repose::base {
 struct FallingGrain;
 }
-
-/// Grains are dropped in air, and simulated without it.
-
-/// Films of bench experiments that a study names, as in measured = { videos = ["drops"] }.
-
-/// Photographs and films of the bench's heaps that a study names.
-
-/// Sheets of readings that a study names, as in measured = { readings = "drops.csv" }.
 
 namespace repose::calibrate {
 
@@ -122,5 +117,18 @@ std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows);
 
 /// The study with the sheets' values as its measured values.
 dem::Study with_readings(dem::Study study, const std::vector<SheetReadings>& sheets);
+
+/// All that a study's bench gave.
+struct Measurement {
+  std::vector<SheetReadings> sheets;
+  std::vector<PictureReading> pictures;  ///< and films of heaps
+  std::vector<FilmReading> films;        ///< of the other experiments
+};
+
+/// The study as measured, from the study as read: readings of its sheets and films and angles of
+/// its pictures are its measured values, those of drops as without air (without_air).
+/// @throws base::InputError  see without_air.
+dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
+                       const Measurement& measurement);
 
 }  // namespace repose::calibrate

@@ -1,4 +1,4 @@
-#include "calibrate/study/bench_readings.h"
+#include "calibrate/bench/bench_readings.h"
 
 #include <algorithm>
 #include <array>
@@ -355,6 +355,14 @@ dem::Study with_readings(dem::Study study, const std::vector<SheetReadings>& she
     measured.in_air = measured.in_air && sheet.in_air;
   }
   return study;
+}
+
+dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
+                       const Measurement& measurement) {
+  // Films see the drag and leave it out themselves.
+  study = with_films(without_air(with_readings(std::move(study), measurement.sheets), grain),
+                     measurement.films);
+  return with_pictures(std::move(study), measurement.pictures);
 }
 
 }  // namespace repose::calibrate

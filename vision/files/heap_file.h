@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "vision/camera/sized_heap.h"
+#include "vision/hints/hint_file.h"
+#include "vision/picture/picture.h"
+
+/// A heap measured in a file, whatever kind of file it is.
+
+namespace repose::vision {
+
+struct HeapInFile {
+  SizedHeap heap;
+  Picture picture;       ///< as it was read; of a film the heap at rest, as in FilmAngle
+  bool is_film = false;  ///< by its name
+};
+
+/// Measures a photograph or a film, with the hints that are kept beside it.
+/// @param given  what is said of it beside that, as with_saved_hints() takes it
+/// @throws base::InputError  "FILE: what. Fix: ...": it cannot be read, or its hints cannot be
+///   used; or as measure_sized_heap().
+HeapInFile measure_heap_file(const std::filesystem::path& file, const PictureSettings& given = {});
+
+}  // namespace repose::vision
