@@ -30,12 +30,12 @@ Summary summarise(std::span<const double> values) {
 }
 
 std::vector<std::size_t> outliers_of(std::span<const double> values, double alpha) {
-  constexpr std::size_t kFewest = 5;
+  constexpr std::size_t kFewest = 5, kMaxOutliers = 20;
   if (values.size() < kFewest) return {};
   std::vector<std::size_t> left(values.size()), taken;
   std::iota(left.begin(), left.end(), std::size_t{0});
   std::size_t outliers = 0;
-  for (std::size_t i = 1; i <= values.size() / 3; ++i) {
+  for (std::size_t i = 1; i <= std::min(kMaxOutliers, values.size() / 3); ++i) {
     const double count = static_cast<double>(left.size()), df = count - 2;
     double mean = 0, squares = 0;
     for (const std::size_t k : left) mean += values[k] / count;

@@ -37,9 +37,10 @@ Summary summarise(std::span<const double> values);
 ///     lambda_i = (n - i) t / sqrt((n - i - 1 + t^2)(n - i + 1)),
 ///
 /// t the quantile 1 - alpha / 2(n - i + 1) of Student's distribution of n - i - 1 degrees of
-/// freedom, and all before it, are outliers. At most a third of the values are. Of normal values it
-/// finds any in a fraction `alpha` of all samples; the approximation is good from 15 values on, and
-/// fewer than 5 have none. Checked by tests/calibrate/summary_test.cpp on Rosner's own example.
+/// freedom, and all before it, are outliers. At most a third of the values are, and at most 20. Of
+/// normal values it finds any in a fraction `alpha` of all samples; the approximation is good from
+/// 15 values on, and fewer than 5 have none. Checked by tests/calibrate/summary_test.cpp on
+/// Rosner's own example.
 std::vector<std::size_t> outliers_of(std::span<const double> values, double alpha);
 
 }  // namespace repose::calibrate
