@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_table.h"
 
 /// A study that is yet to be measured: its file with comments, a sheet for each experiment to fill
 /// in at the bench, and what is typical of kinds of particle and plate until it is measured.
@@ -70,7 +70,7 @@ double grains_in_tube(const NewStudy& study);
 
 /// A sheet of readings.
 struct NewSheet {
-  dem::Experiment experiment = dem::Experiment::drop;
+  dem::Experiment experiment = nullptr;
   std::string name;                  ///< without its folder: "drops.csv"
   std::vector<std::string> columns;  ///< each with its unit: "rebound_mm"
 };

@@ -24,8 +24,8 @@
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
 #include "dem/contact/adhesion.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/shape/scan/calliper.h"
-#include "dem/study/experiment_table.h"
 
 namespace repose::cli {
 
@@ -79,7 +79,7 @@ void read_parts(const NewArguments& arguments, NewPlan& plan) {
       if (std::ranges::find(entry.parts, part) == entry.parts.end()) continue;
       those_with += (those_with.empty() ? "" : " or ") + std::string(entry.name);
       const auto& chosen = plan.study.experiments;
-      if (std::ranges::find(chosen, entry.experiment) != chosen.end()) is_there = entry.name;
+      if (std::ranges::find(chosen, &entry) != chosen.end()) is_there = entry.name;
     }
     if (is_there.empty()) {
       plan.errors.push_back(
@@ -142,15 +142,18 @@ void read_tube(const NewArguments& arguments, NewPlan& plan) {
     study.tube_height_mm = *height;
     study.has_own_tube = true;
   }
-  const auto is_done = [&](dem::Experiment one) {
-    return std::ranges::find(study.experiments, one) != study.experiments.end();
+  const auto is_in_tube = [](const dem::ExperimentEntry& entry) {
+    return std::ranges::find(entry.parts, dem::WallPart::tube) != entry.parts.end();
   };
-  if (!is_done(dem::Experiment::heap) && !(study.has_own_tube && is_done(dem::Experiment::fill))) {
+  const bool uses_tube = std::ranges::any_of(study.experiments, [&](dem::Experiment one) {
+    return one->needs_tube || (study.has_own_tube && is_in_tube(*one));
+  });
+  if (!uses_tube) {
     if (study.has_own_tube && plan.errors.empty()) {
       plan.errors.push_back(fmt::format(
-          "--tube-mm {}: none of the experiments has a tube. Fix: leave it out, or add heap or "
-          "fill to --experiments.",
-          arguments.tube_mm));
+          "--tube-mm {}: none of the experiments has a tube. Fix: leave it out, or add {} to "
+          "--experiments.",
+          arguments.tube_mm, dem::experiment_names({.is_meant = is_in_tube})));
     }
     return;
   }
@@ -176,12 +179,12 @@ void read_experiments(const NewArguments& arguments, NewPlan& plan) {
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
     names.emplace_back(entry.name);
     if (arguments.experiments.empty() && entry.is_default) {
-      plan.study.experiments.push_back(entry.experiment);
+      plan.study.experiments.push_back(&entry);
     }
   }
   for (const std::size_t place :
        read_words({"--experiments", arguments.experiments, plan.errors}, names)) {
-    plan.study.experiments.push_back(dem::all_experiments()[place].experiment);
+    plan.study.experiments.push_back(&dem::all_experiments()[place]);
   }
 }
 
@@ -254,8 +257,7 @@ std::string page_of(const NewPlan& plan, int columns) {
   page.add_gap();
   Table table({{.heading = "sheet"}, {.heading = "measures"}, {.heading = "columns"}});
   for (const calibrate::NewSheet& sheet : calibrate::sheets_of(study)) {
-    table.add_row({(folder / sheet.name).string(),
-                   std::string(dem::entry_of(sheet.experiment).value_name),
+    table.add_row({(folder / sheet.name).string(), std::string(sheet.experiment->value_name),
                    fmt::format("{}", fmt::join(sheet.columns, ", "))});
   }
   page.add(table);

@@ -20,7 +20,7 @@
 #include "cli/common/output.h"
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 

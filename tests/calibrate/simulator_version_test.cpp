@@ -9,6 +9,7 @@
 
 #include "base/fingerprint.h"
 #include "calibrate/experiment/simulate_experiment.h"
+#include "dem/experiment/experiment_table.h"
 #include "tests/support/soft_study.h"
 #include "tests/support/temporary_folder.h"
 
@@ -73,7 +74,7 @@ std::string line_of(const RunResult& run) {
 /// Whether the study gives the key without which there is no such reading.
 bool has_key(const dem::Study& study, const dem::ExperimentEntry& entry, std::string_view needed) {
   if (needed.empty()) return true;
-  dem::Protocol protocol = study.experiments.at(entry.experiment).protocol;
+  dem::Protocol protocol = study.experiments.at(&entry).protocol;
   for (const dem::ProtocolKey& key : entry.keys(protocol)) {
     if (key.name == needed) return dem::value_of(key).has_value();
   }
@@ -86,8 +87,7 @@ TEST(SimulatorVersion, IsRaisedWhenWhatASimulationGivesHasChanged) {
   const NamedGrain grain(dem::build_grain(study.grain));
   std::vector<std::string> lines, others;
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    const RunResult run =
-        simulate_experiment(spec_of(study, entry.experiment, grain, kHeapViews), 1);
+    const RunResult run = simulate_experiment(spec_of(study, &entry, grain, kHeapViews), 1);
     EXPECT_TRUE(run.failure.empty()) << entry.name << ": " << run.failure;
     EXPECT_EQ(is_from_pictures(run), entry.is_pictured) << entry.name;
     std::vector<std::string> given, known;
