@@ -80,7 +80,7 @@ std::vector<NewSheet> sheets_of(const NewStudy& study);
 /// "Soybeans on acrylic".
 std::string title_of(const NewStudy& study);
 
-bool makes_heaps(const NewStudy& study);
+bool needs_tube(const NewStudy& study);
 
 /// Values of the study file that are assumed, as its list names them.
 std::vector<std::string> assumed_names(const NewStudy& study);

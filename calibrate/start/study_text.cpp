@@ -253,7 +253,7 @@ std::string title_of(const NewStudy& study) {
   return title;
 }
 
-bool makes_heaps(const NewStudy& study) {
+bool needs_tube(const NewStudy& study) {
   return std::ranges::any_of(study.experiments, &dem::ExperimentEntry::needs_tube);
 }
 

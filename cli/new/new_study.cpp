@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -237,7 +238,7 @@ std::string assumptions_of(const calibrate::NewStudy& study) {
   if (!study.has_own_density) {
     text += fmt::format(" {:g} kg/m³ (--density-kg-m3),", study.density_kg_m3);
   }
-  if (!study.has_own_tube && makes_heaps(study)) {
+  if (!study.has_own_tube && needs_tube(study)) {
     text += fmt::format(" a tube of {:g} x {:g} mm (--tube-mm),", study.tube_diameter_mm,
                         study.tube_height_mm);
   }
@@ -317,6 +318,15 @@ Examples:
     --grain-mm 7.6,6.9,6.2 --tube-mm 50x150
 )";
 
+/// With the usual ones, as they are typed.
+std::string experiments_help() {
+  std::vector<std::string_view> names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (entry.is_default) names.push_back(entry.name);
+  }
+  return fmt::format("Of the experiments ({})", fmt::join(names, ","));
+}
+
 }  // namespace
 
 Command new_command() {
@@ -354,8 +364,7 @@ Command new_command() {
                    .words = plate_names()},
                   {"--tube-mm", "DxH", "Inner diameter and height (from grain size)",
                    &given->tube_mm},
-                  {"--experiments", "A,B,...", "Of the experiments (drop,tilt,roll,heap)",
-                   &given->experiments}},
+                  {"--experiments", "A,B,...", experiments_help(), &given->experiments}},
       .notes = kNewNotes,
       .missing = "no study file given. Fix: repose new my_study.toml.",
       .run = [given] { return run_new(*given); }};

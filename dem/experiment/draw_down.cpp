@@ -338,7 +338,16 @@ ExperimentEntry draw_down_entry() {
       .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                        kGrainSliding, kGrainRolling},
       .parts = {WallPart::pane},
-      .sheet = {.test = "draw_down", .value = "discharged_percent", .protocol = {}},
+      .sheet = {.test = "draw_down",
+                .value = "discharged_percent",
+                .mean =
+                    MeanOfReadings{.what = "mass that runs out, by that of the fill, times 100",
+                                   .readable = between(0, 100),
+                                   .quantity = "discharged_mass",
+                                   .source = "mean of the discharges",
+                                   .validity =
+                                       "No material constant: it belongs to these boxes, filled to "
+                                       "this height."}},
       .is_bulk = true,
       .is_default = false,
       .usual_model_error = .03,

@@ -54,12 +54,23 @@ struct SystematicFraction {
   std::string_view warning = "";
 };
 
+/// A test of `repose bench` that works nothing out: its result is the mean of the readings.
+struct MeanOfReadings {
+  std::string_view what;      ///< is read, for people: "angle of repose"
+  Range readable;             ///< what it can be
+  std::string_view quantity;  ///< the mean, as results call it: "angle_of_repose"
+  std::string_view source = "mean of the readings";
+  std::string_view validity;  ///< what the mean is, and is not
+};
+
 /// What a bench writes down of it, a row for each repeat: the columns of a test of `repose bench`.
 struct BenchSheet {
   std::string_view test;   ///< "restitution"
   std::string_view value;  ///< the column with the experiment's value: "rebound_mm"
   /// Columns that repeat keys of the protocol, in their unit: {"drop_mm", "height_mm"}.
   std::vector<std::pair<std::string_view, std::string_view>> protocol = {};
+  /// The test itself; none: it has a formula, and is one of calibrate/statistics/bench.
+  std::optional<MeanOfReadings> mean = {};
 };
 
 /// A key of the protocol that films show and sheets need not have.

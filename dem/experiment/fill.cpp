@@ -255,7 +255,17 @@ ExperimentEntry fill_entry() {
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
           .parts = {WallPart::tube},
-          .sheet = {.test = "fill", .value = "bulk_density_kg_m3", .protocol = {}},
+          // Beads of foamed polystyrene have 8 and more, osmium without any gaps has 22,590.
+          .sheet = {.test = "fill",
+                    .value = "bulk_density_kg_m3",
+                    .mean =
+                        MeanOfReadings{
+                            .what = "mass in the tube by the tube's volume",
+                            .readable = between(5, 22590),
+                            .quantity = "bulk_density",
+                            .source = "mean of the fillings",
+                            .validity = "No material constant: it belongs to this tube, filled in "
+                                        "this way."}},
           .is_bulk = true,
           .is_default = false,
           .systematic = systematic_of_fill,

@@ -373,7 +373,16 @@ ExperimentEntry heap_entry() {
       .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                        kGrainSliding, kGrainRolling},
       .parts = {WallPart::tube},
-      .sheet = {.test = "heap", .value = "angle_deg"},
+      .sheet = {.test = "heap",
+                .value = "angle_deg",
+                .mean =
+                    MeanOfReadings{
+                        .what = "angle of repose",
+                        .readable = from_to_below(0, 90),
+                        .quantity = "angle_of_repose",
+                        .source = "mean of the heaps",
+                        .validity = "No material constant: it belongs to heaps of this size, made "
+                                    "on this base in this way."}},
       .is_bulk = true,
       .is_pictured = true,
       .needs_tube = true,

@@ -24,6 +24,9 @@ struct Range {
 constexpr Range above(double from, double to = std::numeric_limits<double>::infinity()) {
   return {.from = from, .to = to, .excludes_from = true};
 }
+constexpr Range between(double from, double to) {
+  return {.from = from, .to = to, .excludes_from = true, .excludes_to = true};
+}
 constexpr Range from_to(double from, double to) { return {.from = from, .to = to}; }
 constexpr Range from_to_below(double from, double to) {
   return {.from = from, .to = to, .excludes_to = true};

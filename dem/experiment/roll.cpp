@@ -186,9 +186,8 @@ Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t 
 namespace {
 
 std::vector<ProtocolKey> keys_of_roll(Protocol& protocol) {
-  constexpr Range kSlope{.from = 0, .to = 90, .excludes_from = true, .excludes_to = true};
   auto& roll = protocol.as<RollProtocol>();
-  return {number_key("incline_deg", "20", kSlope, roll.incline_deg),
+  return {number_key("incline_deg", "20", between(0, 90), roll.incline_deg),
           length_key("release_mm", "150", roll.release_m),
           number_key("release_turn_deg", "10", {.from = 0, .to = 90}, roll.release_turn_deg)};
 }

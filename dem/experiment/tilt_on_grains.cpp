@@ -210,6 +210,9 @@ Repeat run_roll_on_grains(const Model& model, const GrainRollProtocol& protocol,
 
 namespace {
 
+constexpr const char* kNoConstant =
+    "No material constant: glued grains interlock. Calibrate a study with these readings.";
+
 std::vector<ProtocolKey> keys_of_tilt_on_grains(Protocol& protocol) {
   auto& tilt = protocol.as<GrainTiltProtocol>();
   return {count_key("bonded", "3", kMaxBonded, tilt.bonded),
@@ -254,7 +257,12 @@ ExperimentEntry tilt_on_grains_entry() {
           .readings = {{"first_shift_deg", "deg"}, {"sd_deg", "deg"}},
           .coefficients = {kGrainSliding, kGrainRolling},
           .tells = kGrainSliding,
-          .sheet = {.test = "tilt_on_grains", .value = "angle_deg"},
+          .sheet = {.test = "tilt_on_grains",
+                    .value = "angle_deg",
+                    .mean = MeanOfReadings{.what = "tilt at which bonded grains slide off",
+                                           .readable = between(0, 90),
+                                           .quantity = "angle_of_sliding",
+                                           .validity = kNoConstant}},
           .is_default = false,
           .readings_per_run =
               [](const Protocol& protocol) { return protocol.as<GrainTiltProtocol>().places; },
@@ -288,7 +296,12 @@ ExperimentEntry roll_on_grains_entry() {
           .readings = {{"first_shift_deg", "deg"}, {"sd_deg", "deg"}},
           .coefficients = {kGrainSliding, kGrainRolling},
           .tells = kGrainRolling,
-          .sheet = {.test = "roll_on_grains", .value = "angle_deg"},
+          .sheet = {.test = "roll_on_grains",
+                    .value = "angle_deg",
+                    .mean = MeanOfReadings{.what = "tilt at which a single grain rolls off",
+                                           .readable = between(0, 90),
+                                           .quantity = "angle_of_rolling",
+                                           .validity = kNoConstant}},
           .is_default = false,
           .readings_per_run =
               [](const Protocol& protocol) { return protocol.as<GrainRollProtocol>().places; },

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -53,6 +54,11 @@ fill_mm = 92
 drop_mm = 175
 )";
 
+/// What kSimulatorVersion gives for the runs above: a fingerprint of all readings of the usual
+/// experiments, and one of those of the others.
+constexpr std::string_view kSimulatorReadings = "39ec9dca-9988-5108-b41a-37a82e89a377";
+constexpr std::string_view kOtherReadings = "fb8bc55b-51d8-5615-ad39-cc5d4bf72672";
+
 /// Ten digits, none beyond the ninth decimal: there the libraries of two machines may differ.
 std::string ten_digits(double value) {
   return fmt::format("{:.9e}", std::abs(value) < 1e-9 ? 0 : value);
@@ -99,8 +105,8 @@ TEST(SimulatorVersion, IsRaisedWhenWhatASimulationGivesHasChanged) {
     (entry.is_default ? lines : others).push_back(std::string(entry.name) + ' ' + line_of(run));
   }
   constexpr const char* kChanged =
-      "what a simulation gives has changed: raise kSimulatorVersion and store the new hash in "
-      "calibrate/experiment/simulator_version.h\n";
+      "what a simulation gives has changed: raise kSimulatorVersion and store the new hash above; "
+      "or there is a new experiment: store the new hash\n";
   EXPECT_EQ(base::fingerprint(lines), kSimulatorReadings)
       << kChanged << ::testing::PrintToString(lines);
   EXPECT_EQ(base::fingerprint(others), kOtherReadings)
