@@ -17,7 +17,7 @@
 #include "base/units.h"
 #include "calibrate/statistics/bench/sheet.h"
 #include "calibrate/statistics/summary.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 
@@ -30,13 +30,6 @@ double protocol_value(const dem::ExperimentEntry& entry, dem::Protocol protocol,
 }
 
 namespace {
-
-/// None: nothing falls in it.
-std::optional<double> fall_m(const dem::Protocol& protocol) {
-  if (const auto* drop = std::get_if<dem::DropProtocol>(&protocol)) return drop->height_m;
-  if (const auto* drop = std::get_if<dem::GrainDropProtocol>(&protocol)) return drop->height_m;
-  return std::nullopt;
-}
 
 /// Takes the air out of one experiment's heights, which are in mm.
 class Evacuation {
@@ -141,9 +134,9 @@ base::FallingGrain falling_grain(const dem::ClumpShape& grain, double density_kg
 dem::Study without_air(dem::Study study, const dem::ClumpShape& grain) {
   const base::FallingGrain falling = falling_grain(grain, study.model.grain_material.density_kg_m3);
   for (auto& [experiment, described] : study.experiments) {
-    const auto height_m = fall_m(described.protocol);
-    if (!height_m || !described.measured.in_air) continue;
-    Evacuation evacuation(dem::name_of(experiment), falling, *height_m);
+    if (!experiment->is_in_air || !described.measured.in_air) continue;
+    const double height_m = experiment->fall_m(grain, described.protocol);
+    Evacuation evacuation(dem::name_of(experiment), falling, height_m);
     evacuation.take_out(described.measured);
     evacuation.throw_if_impossible();
   }
@@ -242,7 +235,7 @@ PictureSet set_of(const std::vector<PictureReading>& pictures) {
 }
 
 dem::Study with_pictures(dem::Study study, const std::vector<PictureReading>& pictures) {
-  const auto heap = study.experiments.find(dem::Experiment::heap);
+  const auto heap = study.experiments.find(&dem::pictured_experiment());
   if (heap == study.experiments.end()) return study;
   const PictureSet set = set_of(pictures);
   if (!set.heaps_deg) return study;
@@ -338,7 +331,7 @@ std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows) 
   for (const auto& [experiment, described] : study.experiments) {
     if (!described.measured.sheet) continue;
     try {
-      sheets.push_back(read_sheet_of(dem::entry_of(experiment), described, no_rows, errors));
+      sheets.push_back(read_sheet_of(*experiment, described, no_rows, errors));
     } catch (const base::InputError& error) {
       errors.add_all(error.faults());
     }
@@ -349,7 +342,7 @@ std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows) 
 
 dem::Study with_readings(dem::Study study, const std::vector<SheetReadings>& sheets) {
   for (const SheetReadings& sheet : sheets) {
-    const dem::Experiment experiment = dem::experiment_named(sheet.experiment).experiment;
+    const dem::Experiment experiment = &dem::experiment_named(sheet.experiment);
     dem::Measured& measured = study.experiments.at(experiment).measured;
     measured.values = sheet.values;
     measured.in_air = measured.in_air && sheet.in_air;

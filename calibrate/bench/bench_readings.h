@@ -9,8 +9,8 @@
 
 #include "calibrate/experiment/picture_set.h"
 #include "calibrate/statistics/table/table.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/shape/clump/clump_shape.h"
-#include "dem/study/experiment_table.h"
 #include "dem/study/study.h"
 
 /// What a study's bench gave: sheets of readings (measured = { readings = "drops.csv" }), films of

@@ -15,7 +15,7 @@
 #include "calibrate/bench/batch.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/picture_set.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 #include "vision/files/file_list.h"
 #include "vision/files/heap_file.h"
 #include "vision/measure/repose_angle.h"
@@ -160,7 +160,7 @@ void note_outliers(const std::vector<PictureReading>& pictures, std::vector<std:
 }
 
 std::vector<PictureReading> measure_heaps(const dem::Study& study, Findings& findings) {
-  const auto heap = study.experiments.find(dem::Experiment::heap);
+  const auto heap = study.experiments.find(&dem::pictured_experiment());
   if (heap == study.experiments.end()) return {};
   const dem::Measured& bench = heap->second.measured;
   if (bench.pictures.empty() && bench.videos.empty()) return {};
@@ -191,8 +191,8 @@ struct TrackedFile {
 };
 
 vision::Filmed filmed_of(const dem::ExperimentEntry& entry) {
-  if (entry.experiment == dem::Experiment::roll) return vision::Filmed::roll;
-  if (entry.experiment == dem::Experiment::tilt) return vision::Filmed::tilt;
+  if (entry.filmed == dem::FilmedMotion::roll) return vision::Filmed::roll;
+  if (entry.filmed == dem::FilmedMotion::slide) return vision::Filmed::tilt;
   return vision::Filmed::drop;
 }
 
@@ -340,7 +340,7 @@ std::vector<FilmReading> read_films(const dem::Study& study, const BenchOptions&
                                     Findings& findings) {
   std::vector<FilmReading> readings;
   for (const auto& [experiment, described] : study.experiments) {
-    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    const dem::ExperimentEntry& entry = *experiment;
     // Those of heaps are measured as pictures are.
     if (described.measured.videos.empty() || entry.is_pictured) continue;
     read_films_of(study, entry, described, options, findings, readings);

@@ -30,11 +30,11 @@ std::optional<double> mean_deg(const std::optional<vision::OutlineFlank>& left,
 /// A picture of both boxes from the front, and where their parts are in it.
 class Front {
  public:
-  Front(render::Scene scene, const dem::DrawDownProtocol& boxes)
+  Front(render::Scene scene, const dem::BoxesFront& boxes)
       : boxes_(boxes), width_m_(boxes.length_m + 2 * kMargin_m) {
     const double grain_m = dem::diameter_m(scene.shapes.front());
     // Grains that were struck level stand out of the fill by half of their length at most.
-    height_m_ = dem::upper_floor_m(boxes) + boxes.fill_m + grain_m + 2 * kMargin_m;
+    height_m_ = boxes.upper_floor_m + boxes.fill_m + grain_m + 2 * kMargin_m;
     constexpr double kGrain_px = 40;  // more to a grain tell nothing more
     m_per_px_ = std::max(grain_m / kGrain_px, std::max(width_m_, height_m_) / kLongest_px);
     const render::PictureSize size{.width = pixels(width_m_), .height = pixels(height_m_)};
@@ -82,7 +82,7 @@ class Front {
     return picture_.height / 2. + (height_m_ / 2 - kMargin_m - above_m) / m_per_px_;
   }
 
-  dem::DrawDownProtocol boxes_;
+  dem::BoxesFront boxes_;
   double width_m_;
   double height_m_ = 0;
   double m_per_px_ = 0;
@@ -92,14 +92,14 @@ class Front {
 
 }  // namespace
 
-DrawDownFront draw_down_front(render::Scene scene, const dem::DrawDownProtocol& boxes) {
+DrawDownFront draw_down_front(render::Scene scene, const dem::BoxesFront& boxes) {
   if (scene.grains.empty()) {
     throw base::InputError({.where = "draw_down", .value = "there are no grains to draw"});
   }
   Front front(std::move(scene), boxes);
   DrawDownFront result;
   const double end_m = boxes.length_m / 2 + kMargin_m;
-  const double above_m = dem::upper_floor_m(boxes);
+  const double above_m = boxes.upper_floor_m;
   const auto add = [&](const std::optional<vision::OutlineFlank>& flank, const char* name) {
     result.slopes.push_back(front.slope_of(flank, name));
   };

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "dem/experiment/protocol.h"
+#include "dem/experiment/experiment_table.h"
 #include "render/scene/scene.h"
 #include "vision/drawing/slopes_overlay.h"
 #include "vision/picture/picture.h"
@@ -30,6 +30,6 @@ struct DrawDownFront {
 /// tests/calibrate/draw_down_front_test.cpp.
 /// @throws base::InputError  the scene has no grains.
 /// @throws std::runtime_error  this machine cannot draw.
-DrawDownFront draw_down_front(render::Scene scene, const dem::DrawDownProtocol& boxes);
+DrawDownFront draw_down_front(render::Scene scene, const dem::BoxesFront& boxes);
 
 }  // namespace repose::calibrate

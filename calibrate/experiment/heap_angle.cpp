@@ -63,12 +63,6 @@ PictureMean mean_of_pictures(std::span<const PictureAngle> pictures,
   return mean;
 }
 
-std::optional<HeapCamera> camera_of(const dem::HeapProtocol& protocol) {
-  if (!protocol.camera_distance_m) return std::nullopt;
-  return HeapCamera{.distance_m = *protocol.camera_distance_m,
-                    .height_m = protocol.camera_height_m};
-}
-
 HeapViewSession::HeapViewSession(render::Scene scene, const HeapViewing& viewing)
     : scene_(std::move(scene)), views_(viewing.views) {
   // More pixels to a grain than these are not looked at by what measures, and take time to draw.
@@ -157,7 +151,7 @@ bool is_well_pictured(std::span<const HeapView> views, const std::string& defini
 
 namespace {
 
-vision::Outline outline_of(const dem::HeapEnvelope& envelope) {
+vision::Outline outline_of(const dem::Envelope& envelope) {
   vision::Outline outline{.along = {}, .height = envelope.height_m};
   for (std::size_t k = 0; k < envelope.height_m.size(); ++k) {
     outline.along.push_back(static_cast<double>(k) * envelope.column_m);
@@ -167,14 +161,14 @@ vision::Outline outline_of(const dem::HeapEnvelope& envelope) {
 
 }  // namespace
 
-PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
+PositionAngle position_angle(std::span<const dem::Envelope> envelopes,
                              const vision::OutlineOptions& options) {
   PositionAngle result;
   std::vector<double> angles;
   std::vector<double> feet;
   std::optional<double> first_view_deg;
   std::map<std::string, std::vector<double>> others;
-  for (const dem::HeapEnvelope& envelope : envelopes) {
+  for (const dem::Envelope& envelope : envelopes) {
     const vision::OutlineAngle view = vision::measure_outline(outline_of(envelope), options);
     const auto angle_rad = view.angle_rad();
     if (!angle_rad) continue;

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "calibrate/statistics/summary.h"
-#include "dem/experiment/heap.h"
-#include "dem/experiment/protocol.h"
+#include "dem/experiment/experiment_table.h"
 #include "render/renderer.h"
 #include "render/scene/camera.h"
 #include "render/scene/scene.h"
@@ -60,23 +59,12 @@ PictureMean mean_of_pictures(std::span<const PictureAngle> pictures,
 /// With more, neighbouring views show the same grains: the scatter between heaps is what remains.
 inline constexpr int kHeapViews = 9;
 
-/// A level camera on a stand before the heap.
-struct HeapCamera {
-  double distance_m = 0;  ///< from the heap's middle, along the floor
-  double height_m = 0;    ///< of the lens above the ground
-
-  bool operator==(const HeapCamera&) const = default;
-};
-
-/// None: pictures are taken from far away.
-std::optional<HeapCamera> camera_of(const dem::HeapProtocol& protocol);
-
 /// How pictures of a heap are taken.
 struct HeapViewing {
   /// Sides, equally spaced over half a turn; the first is the XZ view. 0: no pictures.
   int views = kHeapViews;
   /// None: it is so far away that its rays are parallel.
-  std::optional<HeapCamera> camera = {};
+  std::optional<dem::LevelCamera> camera = {};
 };
 
 /// A heap seen from one side.
@@ -153,7 +141,7 @@ struct PositionAngle {
 /// off. A silhouette does not show its grains either: with their known size 19 did, the worst 3.5
 /// off.
 /// @throws base::InputError  as vision::measure_outline().
-PositionAngle position_angle(std::span<const dem::HeapEnvelope> envelopes,
+PositionAngle position_angle(std::span<const dem::Envelope> envelopes,
                              const vision::OutlineOptions& options = {});
 
 }  // namespace repose::calibrate

@@ -12,6 +12,8 @@
 #include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/json_fields.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::calibrate {
@@ -60,7 +62,7 @@ std::string fingerprint_of(const Json& json) { return base::fingerprint({json.du
 }  // namespace
 
 template <typename Io>
-void fields(Io& io, Held<Io, HeapCamera>& camera) {
+void fields(Io& io, Held<Io, dem::LevelCamera>& camera) {
   io("distance_m", camera.distance_m);
   io("height_m", camera.height_m);
 }
@@ -93,7 +95,7 @@ void fields(Io& io, Held<Io, RunResult>& run) {
 }
 
 void add_position_angle(RunResult& heap) {
-  const std::vector<dem::HeapEnvelope> envelopes = std::exchange(heap.envelopes, {});
+  const std::vector<dem::Envelope> envelopes = std::exchange(heap.envelopes, {});
   const bool is_layer = heap.readings.number("no_heap").value_or(0) != 0;
   const PositionAngle usual =
       is_layer ? PositionAngle{} : position_angle(envelopes, {.has_definitions = true});

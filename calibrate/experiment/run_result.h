@@ -9,6 +9,8 @@
 
 #include "calibrate/experiment/heap_angle.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 
 namespace repose::calibrate {
 
@@ -18,7 +20,7 @@ struct RunResult : dem::Repeat {
   std::string simulated = "null";  ///< what it is a run of, as description_of()
   /// Pictures of a heap; empty: none were asked for, or could be drawn.
   std::vector<HeapView> views;
-  std::optional<HeapCamera> camera;  ///< that took them; none: from far away
+  std::optional<dem::LevelCamera> camera;  ///< that took them; none: from far away
   /// Of a heap, as `value` but by the other definitions of base/angle_definition.h, by name.
   std::map<std::string, double> other_deg;
   /// The definition by which its angle is asked for; empty: the usual one. All are kept: it is read

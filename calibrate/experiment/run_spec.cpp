@@ -1,7 +1,6 @@
 #include "calibrate/experiment/run_spec.h"
 
 #include <utility>
-#include <variant>
 
 #include "base/fingerprint.h"
 #include "calibrate/experiment/model_fields.h"
@@ -33,13 +32,10 @@ RunSpec spec_of(const dem::Study& study, dem::Experiment experiment, const Named
   RunSpec spec{.protocol = study.experiments.at(experiment).protocol,
                .model = dem::model_for(study, experiment),
                .grain_fingerprint = grain.fingerprint,
-               .viewing = {.views = dem::entry_of(experiment).is_pictured ? views : 0},
+               .viewing = {.views = experiment->is_pictured ? views : 0, .camera = {}},
                .definition = study.experiments.at(experiment).definition};
   spec.model.grain = grain.shape;
-  if (auto* heap = std::get_if<dem::HeapProtocol>(&spec.protocol)) {
-    heap->allow_partial_fill = true;
-    spec.viewing.camera = camera_of(*heap);
-  }
+  if (experiment->camera != nullptr) spec.viewing.camera = experiment->camera(spec.protocol);
   return spec;
 }
 
@@ -51,7 +47,7 @@ std::string description_of(const RunSpec& spec, std::uint64_t seed) {
             {"particle", json_of_fields(model.grain_material)},
             {"wall", json_of_fields(model.wall_material)},
             {"particle_wall", json_of_fields(model.grain_wall)}};
-  if (dem::has_grain_contacts(spec.entry().experiment)) {
+  if (dem::has_grain_contacts(&spec.entry())) {
     json["particle_particle"] = json_of_fields(model.grain_grain);
   }
   for (const auto& [part, surface] : model.parts) {

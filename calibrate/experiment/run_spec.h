@@ -4,8 +4,8 @@
 #include <string>
 
 #include "calibrate/experiment/heap_angle.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/shape/clump/clump_file.h"
-#include "dem/study/experiment_table.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {

@@ -1,10 +1,10 @@
 #include "calibrate/experiment/run_store.h"
 
-#include <array>
 #include <mutex>
 #include <optional>
 #include <regex>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -43,14 +43,15 @@ bool has_stored(const fs::path& folder, const IsMeant& is_meant) {
   return false;
 }
 
-constexpr std::array<std::string_view, 4> kStages = {"rain", "settle_in_tube", "lift", "settle"};
+/// Names of an experiment's stages.
+using Stages = std::span<const std::string_view>;
 
-Json json_of(const dem::HeapProgress& progress) {
+Json json_of(const dem::RunProgress& progress, Stages stages) {
   std::vector<double> before;
   for (const dem::Vector& centre : progress.rest.before) {
     before.insert(before.end(), {centre.x(), centre.y(), centre.z()});
   }
-  return {{"stage", kStages.at(static_cast<std::size_t>(progress.stage))},
+  return {{"stage", stages[static_cast<std::size_t>(progress.stage)]},
           {"steps", progress.work.steps},
           {"clump_steps", progress.work.clump_steps},
           {"shortest_timestep_s", progress.work.shortest_timestep_s},
@@ -63,16 +64,16 @@ Json json_of(const dem::HeapProgress& progress) {
           {"start_m", progress.start_m}};
 }
 
-dem::HeapStage stage_named(const std::string& name) {
-  for (std::size_t k = 0; k < kStages.size(); ++k) {
-    if (kStages[k] == name) return static_cast<dem::HeapStage>(k);
+int stage_named(const std::string& name, Stages stages) {
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    if (stages[k] == name) return static_cast<int>(k);
   }
   throw base::InputError({.value = "its stage is unknown"});
 }
 
-dem::HeapProgress progress_in(const Json& json) {
-  dem::HeapProgress progress;
-  progress.stage = stage_named(json.at("stage"));
+dem::RunProgress progress_in(const Json& json, Stages stages) {
+  dem::RunProgress progress;
+  progress.stage = stage_named(json.at("stage"), stages);
   progress.work = {json.at("steps"), json.at("clump_steps"), json.at("shortest_timestep_s")};
   progress.steps_left = json.at("steps_left");
   progress.random_draws = json.at("random_draws");
@@ -93,18 +94,20 @@ dem::HeapProgress progress_in(const Json& json) {
 
 }  // namespace
 
-std::string restart_text(const std::string& description, const RestartRecord& record) {
+std::string restart_text(const std::string& description, const RestartRecord& record,
+                         std::span<const std::string_view> stages) {
   const dem::Film& film = record.film;
   return Json{
       {"simulated", Json::parse(description)},
-      {"progress", json_of(record.progress)},
+      {"progress", json_of(record.progress, stages)},
       {"film", {{"times_s", film.times_s}, {"start_s", film.start_s}, {"last_s", film.last_s}}},
       {"trajectory_s", record.trajectory_s ? Json(*record.trajectory_s) : Json(nullptr)},
       {"wall_s", record.wall_s}}
       .dump();
 }
 
-RestartRecord restart_in(const std::string& text, const std::string& description) {
+RestartRecord restart_in(const std::string& text, const std::string& description,
+                         std::span<const std::string_view> stages) {
   try {
     const Json json = Json::parse(text);
     if (json.at("simulated") != Json::parse(description)) {
@@ -112,7 +115,7 @@ RestartRecord restart_in(const std::string& text, const std::string& description
     }
     const Json& film = json.at("film");
     RestartRecord restart;
-    restart.progress = progress_in(json.at("progress"));
+    restart.progress = progress_in(json.at("progress"), stages);
     restart.film = {film.at("times_s"), film.at("start_s"), film.at("last_s")};
     const Json& trajectory = json.at("trajectory_s");
     if (!trajectory.is_null()) restart.trajectory_s = trajectory.get<double>();
@@ -232,7 +235,7 @@ std::optional<SavedRestart> RunStore::find_restart(const RunSpec& spec, std::uin
   }();
   const RestartRecord record = [&] {
     try {
-      return restart_in(state.provenance_json, description_of(spec, seed));
+      return restart_in(state.provenance_json, description_of(spec, seed), spec.entry().stages);
     } catch (const base::InputError& error) {
       refuse(place, error.what());
     }
@@ -246,7 +249,7 @@ std::optional<SavedRestart> RunStore::find_restart(const RunSpec& spec, std::uin
 void RunStore::save_restart(const RunSpec& spec, std::uint64_t seed,
                             const dem::Simulation& simulation, const RestartRecord& record) const {
   dem::write_state(file(spec, seed, kRestartEnding), simulation,
-                   restart_text(description_of(spec, seed), record));
+                   restart_text(description_of(spec, seed), record, spec.entry().stages));
 }
 
 fs::path lock_file_in(const fs::path& folder) { return folder / "runs" / ".lock"; }

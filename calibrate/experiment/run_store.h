@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/input_error.h"
@@ -16,20 +18,23 @@ namespace repose::calibrate {
 
 /// Where an unfinished run stood, but for the state of its simulation.
 struct RestartRecord {
-  dem::HeapProgress progress;
+  dem::RunProgress progress;
   dem::Film film;
   std::optional<double> trajectory_s;  ///< between the film's frames; none: it has no film
   double wall_s = 0;                   ///< spent so far
 };
 
-/// What a restart file holds beside the state, as JSON in the state's provenance.
-std::string restart_text(const std::string& description, const RestartRecord& record);
+/// What a restart file holds beside the state, as JSON in the state's provenance. `stages`: of the
+/// experiment.
+std::string restart_text(const std::string& description, const RestartRecord& record,
+                         std::span<const std::string_view> stages);
 /// @throws base::InputError  the text is damaged or of a run with another description; says
 /// what is wrong.
-RestartRecord restart_in(const std::string& text, const std::string& description);
+RestartRecord restart_in(const std::string& text, const std::string& description,
+                         std::span<const std::string_view> stages);
 
 struct SavedRestart {
-  dem::HeapRestart from;
+  dem::Restart from;
   RestartRecord record;
 };
 

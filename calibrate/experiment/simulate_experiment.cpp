@@ -4,12 +4,12 @@
 #include <chrono>
 #include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include "base/input_error.h"
 #include "calibrate/experiment/draw_down_front.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "dem/engine/unstable_run.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/state/state_file.h"
 
 namespace repose::calibrate {
@@ -72,9 +72,7 @@ class ExperimentRunner {
       static_cast<dem::Repeat&>(run) = repeated(restart, spent_s);
       if (!run.envelopes.empty()) add_position_angle(run);
       run.failure = no_heap_reason(run);
-      if (const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol)) {
-        measure_front(*boxes, run);
-      }
+      if (spec_.entry().front != nullptr) measure_front(spec_.entry().front(spec_.protocol), run);
     } catch (const base::InputError& error) {
       throw dem::with_study_keys(error, spec_.protocol);
     } catch (const dem::NoMeasurement& error) {
@@ -111,7 +109,7 @@ class ExperimentRunner {
     if (options_.folder != nullptr && spec_.entry().resume != nullptr) {
       record.is_restart_due = [&] { return Clock::now() - saved_at >= kBetweenRestarts; };
       record.save_restart = [&](const dem::Simulation& simulation,
-                                const dem::HeapProgress& progress) {
+                                const dem::RunProgress& progress) {
         RestartRecord now{.progress = progress, .film = {}, .trajectory_s = {}};
         if (film) {
           now.film = film->film();
@@ -133,7 +131,7 @@ class ExperimentRunner {
 
   bool goes_on(double fraction) const { return !options_.report || options_.report(fraction); }
 
-  void measure_front(const dem::DrawDownProtocol& boxes, RunResult& run) const {
+  void measure_front(const dem::BoxesFront& boxes, RunResult& run) const {
     const DrawDownFront front = draw_down_front(scene(run), boxes);
     run.readings["upper_angle_deg"] = front.upper_angle_deg;
     run.readings["lower_angle_deg"] = front.lower_angle_deg;

@@ -10,7 +10,15 @@
 
 #include "base/text.h"
 #include "calibrate/export/templates.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/pendulum.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
+#include "dem/experiment/tilt_on_grains.h"
 
 namespace repose::calibrate {
 
@@ -74,27 +82,26 @@ std::string filled(const std::string& template_name, const DeckFields& fields) {
 }
 
 bool has_decks(ExportTarget target, const dem::Protocol& protocol) {
-  const bool is_edem = target == ExportTarget::edem;
-  const bool is_liggghts = target == ExportTarget::liggghts;
-  switch (dem::entry_of(protocol).experiment) {
-    case dem::Experiment::drop:
-    case dem::Experiment::tilt:
-    case dem::Experiment::roll:
-      return true;
-    case dem::Experiment::heap:
-      return target != ExportTarget::lammps;
-    case dem::Experiment::fill: {
-      const auto& fill = std::get<dem::FillProtocol>(protocol);
-      return is_edem || (is_liggghts && !fill.taps && !fill.pour_kg_s);
-    }
-    case dem::Experiment::pendulum:
-    case dem::Experiment::drop_on_grains:
-    case dem::Experiment::tilt_on_grains:
-    case dem::Experiment::roll_on_grains:
-    case dem::Experiment::draw_down:
-      break;
+  const dem::ExperimentEntry& entry = dem::entry_of(protocol);
+  const auto is_one_of = [&entry](std::initializer_list<dem::Experiment> experiments) {
+    return std::ranges::find(experiments, &entry) != experiments.end();
+  };
+  // Tables of what all experiments are made of.
+  if (target == ExportTarget::edem) return true;
+  if (is_one_of({dem::experiment_of<dem::DropProtocol>(), dem::experiment_of<dem::TiltProtocol>(),
+                 dem::experiment_of<dem::RollProtocol>()})) {
+    return true;
   }
-  return is_liggghts || is_edem;
+  if (is_one_of({dem::experiment_of<dem::HeapProtocol>()})) return target != ExportTarget::lammps;
+  if (target != ExportTarget::liggghts) return false;
+  if (is_one_of({dem::experiment_of<dem::FillProtocol>()})) {
+    const auto& fill = protocol.as<dem::FillProtocol>();
+    return !fill.taps && !fill.pour_kg_s;
+  }
+  return is_one_of(
+      {dem::experiment_of<dem::GrainDropProtocol>(), dem::experiment_of<dem::GrainTiltProtocol>(),
+       dem::experiment_of<dem::GrainRollProtocol>(), dem::experiment_of<dem::PendulumProtocol>(),
+       dem::experiment_of<dem::DrawDownProtocol>()});
 }
 
 std::string names_with_decks(ExportTarget target) {

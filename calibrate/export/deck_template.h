@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibrate/export/export.h"
-#include "dem/experiment/protocol.h"
+#include "dem/experiment/experiment.h"
 
 namespace repose::calibrate {
 

@@ -3,7 +3,8 @@
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/targets.h"
 #include "calibrate/study/study_simulator.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 
 namespace repose::calibrate {
 namespace {
@@ -80,8 +81,9 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
     own.set("PART_POISSON", material.poisson_ratio);
     add_interaction("contact.particle_" + name_of(part) + '.', name, conversions, rolling, fields);
   }
-  if (facts.has(dem::Experiment::heap)) {
-    fields.add_section("HEAP").set("STIFFNESS", facts.stiffness(dem::Experiment::heap));
+  if (facts.has(dem::experiment_of<dem::HeapProtocol>())) {
+    fields.add_section("HEAP").set("STIFFNESS",
+                                   facts.stiffness(dem::experiment_of<dem::HeapProtocol>()));
   }
   for (const dem::Experiment experiment : facts.experiments()) {
     DeckFields& step = fields.add_section("STEP");

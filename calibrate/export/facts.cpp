@@ -12,11 +12,13 @@
 #include "base/version.h"
 #include "calibrate/export/deck_template.h"
 #include "calibrate/study/study_simulator.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/pendulum.h"
 #include "dem/experiment/roll.h"
 #include "dem/experiment/tilt.h"
-#include "dem/study/experiment_table.h"
 
 namespace repose::calibrate {
 
@@ -98,10 +100,9 @@ bool ExportFacts::has_deck(dem::Experiment experiment) const {
   const auto found = study_.experiments.find(experiment);
   if (found == study_.experiments.end()) return false;
   // Its contacts all have one rolling friction.
-  const bool has_own_incline = study_.model.parts.contains(dem::WallPart::incline);
-  if (target_ == ExportTarget::yade && experiment == dem::Experiment::roll && has_own_incline) {
-    return false;
-  }
+  const bool has_own_incline =
+      dem::model_for(study_, experiment).parts.contains(dem::WallPart::incline);
+  if (target_ == ExportTarget::yade && has_own_incline) return false;
   return has_decks(target_, found->second.protocol);
 }
 
@@ -109,7 +110,7 @@ std::vector<dem::WallPart> ExportFacts::parts() const {
   std::vector<dem::WallPart> there;
   for (const auto& [part, surface] : study_.model.parts) {
     const bool is_used = std::ranges::any_of(experiments(), [part](dem::Experiment experiment) {
-      const auto& own = dem::entry_of(experiment).parts;
+      const auto& own = experiment->parts;
       return std::ranges::find(own, part) != own.end();
     });
     if (is_used) there.push_back(part);
@@ -269,44 +270,11 @@ namespace {
 /// Other programs do not average the first and last step of an impact as ours does.
 constexpr double kTimestepFraction = .5;
 
-/// That gives the speed of the fastest impact that an experiment may see.
-double fall_m(const ExportFacts& facts, dem::Experiment experiment) {
-  const dem::Study& study = facts.study();
-  const double reach = facts.grain().reach_m();
-  switch (experiment) {
-    case dem::Experiment::drop:
-      return study.protocol<dem::DropProtocol>().height_m;
-    case dem::Experiment::tilt:
-      return .01 * reach;
-    case dem::Experiment::roll: {
-      const dem::RollProtocol& roll = study.protocol<dem::RollProtocol>();
-      return reach + roll.release_m * std::sin(roll.incline_deg * std::numbers::pi / 180);
-    }
-    case dem::Experiment::drop_on_grains:
-      return study.protocol<dem::GrainDropProtocol>().height_m;
-    case dem::Experiment::tilt_on_grains:
-    case dem::Experiment::roll_on_grains:
-      return dem::diameter_m(facts.grain());
-    case dem::Experiment::fill: {
-      const dem::FillProtocol& fill = study.protocol<dem::FillProtocol>();
-      return fill.tube_height_m + fill.pour_m;
-    }
-    case dem::Experiment::pendulum:
-      return dem::release_height_m(study.protocol<dem::PendulumProtocol>());
-    case dem::Experiment::draw_down: {
-      const dem::DrawDownProtocol& boxes = study.protocol<dem::DrawDownProtocol>();
-      return boxes.fill_m + boxes.drop_m;
-    }
-    case dem::Experiment::heap:
-      break;
-  }
-  return 8 * reach;  // grains that rain into a tube
-}
-
 }  // namespace
 
 double ExportFacts::speed_m_s(dem::Experiment experiment) const {
-  return std::sqrt(2 * kStandardGravity_m_s2 * fall_m(*this, experiment));
+  const dem::Protocol& protocol = study_.experiments.at(experiment).protocol;
+  return std::sqrt(2 * kStandardGravity_m_s2 * experiment->fall_m(grain(), protocol));
 }
 
 double ExportFacts::timestep_s(dem::Experiment experiment) const {
@@ -314,12 +282,11 @@ double ExportFacts::timestep_s(dem::Experiment experiment) const {
   model.timestep_fraction = kTimestepFraction;
   model.timestep_s = {};
   dem::ClumpShape shape = grain();
-  if (experiment == dem::Experiment::tilt) shape = tilt_body();
-  if (experiment == dem::Experiment::tilt_on_grains) {
-    shape = dem::bonded_shape(shape, study_.protocol<dem::GrainTiltProtocol>().bonded);
+  if (experiment->body != nullptr) {
+    shape = experiment->body(shape, study_.experiments.at(experiment).protocol);
   }
   std::vector<dem::Wall> walls;
-  if (experiment != dem::Experiment::pendulum) walls.push_back(dem::study_wall(dem::Plane{}));
+  if (experiment->has_plate) walls.push_back(dem::study_wall(dem::Plane{}));
   return dem::model_setup(model, shape, walls, speed_m_s(experiment)).timestep_s;
 }
 

@@ -7,6 +7,7 @@
 #include "calibrate/export/export.h"
 #include "dem/contact/contact_table.h"
 #include "dem/engine/simulation.h"
+#include "dem/experiment/heap.h"
 
 namespace repose::calibrate {
 
@@ -33,7 +34,7 @@ class ExportFacts {
   double ball_density_kg_m3() const;
   bool has(dem::Experiment experiment) const { return dem::has_protocol(study_, experiment); }
   /// Of those that the study has the ones that the target has a deck for; for EDEM, which has none,
-  /// all of them. In the order of dem::Experiment, as the others.
+  /// all of them. In the order of dem::all_experiments(), as the others.
   std::vector<dem::Experiment> experiments() const;
   std::vector<dem::Experiment> left_out() const;
   bool has_deck(dem::Experiment experiment) const;

@@ -5,8 +5,11 @@
 
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/targets.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 
 namespace repose::calibrate {
 namespace {
@@ -101,14 +104,15 @@ void add_body(const std::string& name, const dem::ClumpShape& shape, double mass
 void add_drop(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
   const double reach = facts.grain().reach_m();
-  const double speed = facts.speed_m_s(dem::Experiment::drop);
-  DeckFields fields = lammps_fields(facts, dem::Experiment::drop, facts.is_sphere());
+  const double speed = facts.speed_m_s(dem::experiment_of<dem::DropProtocol>());
+  DeckFields fields =
+      lammps_fields(facts, dem::experiment_of<dem::DropProtocol>(), facts.is_sphere());
   fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
   fields.set("GRAINS", protocol.grains);
   fields.set("ROOM", protocol.height_m + 10 * reach);
   fields.set("TOP", protocol.height_m + 10 * reach);
-  fields.set("STEPS", steps(facts.longest_drop_s(dem::Experiment::drop),
-                            facts.timestep_s(dem::Experiment::drop)));
+  fields.set("STEPS", steps(facts.longest_drop_s(dem::experiment_of<dem::DropProtocol>()),
+                            facts.timestep_s(dem::experiment_of<dem::DropProtocol>())));
   int number = 0;
   for (const TouchingPose& pose : facts.drop_poses()) {
     fields.add_section("POSE").set("NUMBER", ++number);
@@ -125,8 +129,9 @@ void add_tilt(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const dem::ClumpShape body = facts.tilt_body();
   const TouchingPose pose = facts.tilt_pose();
-  const double timestep = facts.timestep_s(dem::Experiment::tilt);
-  DeckFields fields = lammps_fields(facts, dem::Experiment::tilt, body.spheres.size() == 1);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::TiltProtocol>());
+  DeckFields fields =
+      lammps_fields(facts, dem::experiment_of<dem::TiltProtocol>(), body.spheres.size() == 1);
   fields.set("BONDED", protocol.bonded);
   fields.set("RATE", protocol.rate_deg_s);
   fields.set("BEGIN", facts.tilt_begin_deg());
@@ -144,8 +149,9 @@ void add_incline(const ExportFacts& facts, const Conversions& conversions, DeckF
     fields.add_section("ONE_MATERIAL");
     return;
   }
-  const dem::ContactLaw law = facts.law(dem::Experiment::roll, dem::WallPart::incline);
-  const double stiffness = facts.stiffness(dem::Experiment::roll);
+  const dem::ContactLaw law =
+      facts.law(dem::experiment_of<dem::RollProtocol>(), dem::WallPart::incline);
+  const double stiffness = facts.stiffness(dem::experiment_of<dem::RollProtocol>());
   const RollingSpring roll = rolling_spring(facts, law);
   const std::string pair = "contact.particle_incline.";
   DeckFields& own = fields.add_section("TWO_MATERIALS");
@@ -165,8 +171,9 @@ void add_roll(const ExportFacts& facts, const Conversions& conversions,
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Vector normal = dem::incline_of(protocol).normal;
   const double reach = facts.grain().reach_m();
-  const double timestep = facts.timestep_s(dem::Experiment::roll);
-  DeckFields fields = lammps_fields(facts, dem::Experiment::roll, facts.is_sphere());
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::RollProtocol>());
+  DeckFields fields =
+      lammps_fields(facts, dem::experiment_of<dem::RollProtocol>(), facts.is_sphere());
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
   fields.set("INCLINE", protocol.incline_deg);
   fields.set("NORMAL_X", normal.x());
@@ -188,9 +195,9 @@ void add_roll(const ExportFacts& facts, const Conversions& conversions,
 
 std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {lammps_material_file(facts, conversions)};
-  if (facts.has(dem::Experiment::drop)) add_drop(facts, files);
-  if (facts.has(dem::Experiment::tilt)) add_tilt(facts, files);
-  if (facts.has(dem::Experiment::roll)) add_roll(facts, conversions, files);
+  if (facts.has(dem::experiment_of<dem::DropProtocol>())) add_drop(facts, files);
+  if (facts.has(dem::experiment_of<dem::TiltProtocol>())) add_tilt(facts, files);
+  if (facts.has(dem::experiment_of<dem::RollProtocol>())) add_roll(facts, conversions, files);
   return files;
 }
 

@@ -9,6 +9,11 @@
 #include "calibrate/export/liggghts_decks.h"
 #include "calibrate/export/stl.h"
 #include "calibrate/export/targets.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 
 namespace repose::calibrate {
 namespace {
@@ -132,7 +137,7 @@ ExportedFile grain_file(const ExportFacts& facts) {
 
 ExportedFile drop_on_wall_file(const ExportFacts& facts) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
-  return drop_file(facts, {.experiment = dem::Experiment::drop,
+  return drop_file(facts, {.experiment = dem::experiment_of<dem::DropProtocol>(),
                            .ground = "a wall",
                            .section = "WALL",
                            .height_m = protocol.height_m,
@@ -143,9 +148,9 @@ ExportedFile tilt_file(const ExportFacts& facts) {
   const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const dem::ClumpShape body = facts.tilt_body();
   const TouchingPose pose = facts.tilt_pose();
-  const double timestep = facts.timestep_s(dem::Experiment::tilt);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::TiltProtocol>());
   const double begin = facts.tilt_begin_deg();
-  DeckFields fields = deck_fields(facts, dem::Experiment::tilt);
+  DeckFields fields = deck_fields(facts, dem::experiment_of<dem::TiltProtocol>());
   set_body(body, facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(pose.orientation, fields);
   fields.set("BONDED", protocol.bonded);
@@ -162,8 +167,8 @@ ExportedFile roll_file(const ExportFacts& facts) {
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Grain start = facts.roll_start();
   const double reach = facts.grain().reach_m();
-  const double timestep = facts.timestep_s(dem::Experiment::roll);
-  DeckFields fields = deck_fields(facts, dem::Experiment::roll);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::RollProtocol>());
+  DeckFields fields = deck_fields(facts, dem::experiment_of<dem::RollProtocol>());
   set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(start.orientation, fields);
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
@@ -184,14 +189,14 @@ ExportedFile roll_file(const ExportFacts& facts) {
 ExportedFile heap_file(const ExportFacts& facts) {
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double reach = facts.grain().reach_m();
-  const double timestep = facts.timestep_s(dem::Experiment::heap);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::HeapProtocol>());
   const double tube_m3 = std::numbers::pi / 4 * protocol.tube_diameter_m *
                          protocol.tube_diameter_m * protocol.tube_height_m;
   const int grains = grains_in_heap(facts);
   constexpr double kLoose = .12;  // of a column that random insertion fills without trouble
   const double column =
       grains * facts.grain().volume_m3 / (kLoose * tube_m3) * protocol.tube_height_m;
-  DeckFields fields = deck_fields(facts, dem::Experiment::heap);
+  DeckFields fields = deck_fields(facts, dem::experiment_of<dem::HeapProtocol>());
   mark_shape(facts.is_sphere(), fields);
   fields.set("GRAINS", grains);
   fields.set("LIFT", protocol.lift_speed_m_s);
@@ -214,21 +219,21 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
                                      grain_file(facts),
                                      place_file(facts, "place.lig", facts.is_sphere()),
                                      {.name = "clump.txt", .text = spheres_text(facts.grain())}};
-  if (facts.has(dem::Experiment::drop)) files.push_back(drop_on_wall_file(facts));
-  if (facts.has(dem::Experiment::tilt)) {
+  if (facts.has(dem::experiment_of<dem::DropProtocol>())) files.push_back(drop_on_wall_file(facts));
+  if (facts.has(dem::experiment_of<dem::TiltProtocol>())) {
     const bool is_sphere =
         facts.is_sphere() && facts.study().protocol<dem::TiltProtocol>().bonded == 1;
     files.push_back(tilt_file(facts));
     files.push_back(place_file(facts, "place_body.lig", is_sphere));
     files.push_back({.name = "body.txt", .text = spheres_text(facts.tilt_body())});
   }
-  if (facts.has(dem::Experiment::roll)) {
+  if (facts.has(dem::experiment_of<dem::RollProtocol>())) {
     files.push_back(roll_file(facts));
     files.push_back({.name = "incline.stl",
                      .text = incline_stl(facts.study().protocol<dem::RollProtocol>(),
                                          facts.grain().reach_m())});
   }
-  if (facts.has(dem::Experiment::heap)) {
+  if (facts.has(dem::experiment_of<dem::HeapProtocol>())) {
     files.push_back(heap_file(facts));
     files.push_back({.name = "tube.stl",
                      .text = tube_stl(facts.study().protocol<dem::HeapProtocol>(), kTubeSides)});

@@ -10,11 +10,14 @@
 #include "base/units.h"
 #include "calibrate/export/stl.h"
 #include "dem/experiment/draw_down.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
 #include "dem/experiment/glued_bed.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/pendulum.h"
 #include "dem/experiment/tilt.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/tilt_on_grains.h"
 
 namespace repose::calibrate {
 
@@ -140,7 +143,7 @@ std::vector<ExportedFile> drop_files(const ExportFacts& facts) {
   const dem::SphereBed bed = dem::glued_bed(grain, protocol.coverage, random);
   const double top = dem::top_m(bed);
   const double apart = dem::drop_spacing_m(protocol.height_m, grain.reach_m());
-  DropDeck deck{.experiment = dem::Experiment::drop_on_grains,
+  DropDeck deck{.experiment = dem::experiment_of<dem::GrainDropProtocol>(),
                 .ground = "a board covered with glued grains",
                 .section = "BED",
                 .height_m = protocol.height_m,
@@ -161,7 +164,7 @@ std::vector<ExportedFile> drop_files(const ExportFacts& facts) {
 
 /// Bodies of grains on a board that tilts.
 struct TiltDeck {
-  dem::Experiment experiment = dem::Experiment::tilt_on_grains;
+  dem::Experiment experiment = dem::experiment_of<dem::GrainTiltProtocol>();
   int bonded = 1;
   double rate_deg_s = 0;
   int places = 1;
@@ -218,7 +221,7 @@ std::vector<ExportedFile> tilt_files(const ExportFacts& facts, const TiltDeck& d
 std::vector<ExportedFile> row_files(const ExportFacts& facts) {
   const dem::GrainTiltProtocol& protocol = facts.study().protocol<dem::GrainTiltProtocol>();
   std::vector<ExportedFile> files =
-      tilt_files(facts, {.experiment = dem::Experiment::tilt_on_grains,
+      tilt_files(facts, {.experiment = dem::experiment_of<dem::GrainTiltProtocol>(),
                          .bonded = protocol.bonded,
                          .rate_deg_s = protocol.rate_deg_s,
                          .places = protocol.places,
@@ -233,7 +236,7 @@ std::vector<ExportedFile> row_files(const ExportFacts& facts) {
 
 std::vector<ExportedFile> single_files(const ExportFacts& facts) {
   const dem::GrainRollProtocol& protocol = facts.study().protocol<dem::GrainRollProtocol>();
-  return tilt_files(facts, {.experiment = dem::Experiment::roll_on_grains,
+  return tilt_files(facts, {.experiment = dem::experiment_of<dem::GrainRollProtocol>(),
                             .bonded = 1,
                             .rate_deg_s = protocol.rate_deg_s,
                             .places = protocol.places,
@@ -250,9 +253,9 @@ void add(std::vector<ExportedFile> more, std::vector<ExportedFile>& files) {
 
 std::vector<ExportedFile> liggghts_files_on_grains(const ExportFacts& facts) {
   std::vector<ExportedFile> files;
-  if (facts.has_deck(dem::Experiment::drop_on_grains)) add(drop_files(facts), files);
-  if (facts.has_deck(dem::Experiment::tilt_on_grains)) add(row_files(facts), files);
-  if (facts.has_deck(dem::Experiment::roll_on_grains)) add(single_files(facts), files);
+  if (facts.has_deck(dem::experiment_of<dem::GrainDropProtocol>())) add(drop_files(facts), files);
+  if (facts.has_deck(dem::experiment_of<dem::GrainTiltProtocol>())) add(row_files(facts), files);
+  if (facts.has_deck(dem::experiment_of<dem::GrainRollProtocol>())) add(single_files(facts), files);
   return files;
 }
 
@@ -275,11 +278,11 @@ void add_pair(const dem::HangingPair& pair, int number, DeckFields& fields) {
 /// Pairs in the poses of our run with the study's first seed, each on its own.
 ExportedFile pendulum_file(const ExportFacts& facts) {
   const dem::PendulumProtocol& protocol = facts.study().protocol<dem::PendulumProtocol>();
-  const double timestep = facts.timestep_s(dem::Experiment::pendulum);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::PendulumProtocol>());
   const double speed = dem::swing_speed_m_s(protocol);
   const double reach = facts.grain().reach_m();
   const double reach_s = reach / speed;
-  DeckFields fields = deck_fields(facts, dem::Experiment::pendulum);
+  DeckFields fields = deck_fields(facts, dem::experiment_of<dem::PendulumProtocol>());
   mark_shape(facts.is_sphere(), fields);
   fields.set("STRING", protocol.string_m);
   fields.set("STRING_MM", 1e3 * protocol.string_m);
@@ -301,7 +304,8 @@ ExportedFile pendulum_file(const ExportFacts& facts) {
 
 std::vector<ExportedFile> liggghts_files_of_pairs(const ExportFacts& facts) {
   std::vector<ExportedFile> files;
-  if (facts.has_deck(dem::Experiment::pendulum)) files.push_back(pendulum_file(facts));
+  if (facts.has_deck(dem::experiment_of<dem::PendulumProtocol>()))
+    files.push_back(pendulum_file(facts));
   return files;
 }
 
@@ -375,9 +379,9 @@ ExportedFile fill_file(const ExportFacts& facts) {
                     .floor_m = 0,
                     .rim_m = protocol.tube_height_m,
                     .spout_m = protocol.tube_height_m + protocol.pour_m};
-  DeckFields fields = deck_fields(facts, dem::Experiment::fill);
-  set_pouring(pouring_of(tube, facts.grain()), reach, facts.timestep_s(dem::Experiment::fill),
-              fields);
+  DeckFields fields = deck_fields(facts, dem::experiment_of<dem::FillProtocol>());
+  set_pouring(pouring_of(tube, facts.grain()), reach,
+              facts.timestep_s(dem::experiment_of<dem::FillProtocol>()), fields);
   fields.set("POUR_MM", 1e3 * protocol.pour_m);
   fields.set("TUBE_RADIUS", radius);
   fields.set("RIM", tube.rim_m);
@@ -409,14 +413,14 @@ ExportedFile draw_down_file(const ExportFacts& facts) {
   constexpr double kFall = 4;  // reaches, as of our rain
   constexpr double kPart_s = 1;
   const dem::DrawDownProtocol& protocol = facts.study().protocol<dem::DrawDownProtocol>();
-  const double timestep = facts.timestep_s(dem::Experiment::draw_down);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::DrawDownProtocol>());
   const double reach = facts.grain().reach_m();
   const double floor_m = dem::upper_floor_m(protocol), rim_m = floor_m + protocol.fill_m;
   const Vessel box{.section_m2 = protocol.length_m * protocol.depth_m,
                    .floor_m = floor_m,
                    .rim_m = rim_m,
                    .spout_m = rim_m + (kHeaped + kFall) * reach};
-  DeckFields fields = deck_fields(facts, dem::Experiment::draw_down);
+  DeckFields fields = deck_fields(facts, dem::experiment_of<dem::DrawDownProtocol>());
   set_pouring(pouring_of(box, facts.grain()), reach, timestep, fields);
   mark_shape(facts.is_sphere(), fields);
   fields.set("SLOT_MM", 1e3 * protocol.slot_m);
@@ -435,8 +439,8 @@ ExportedFile draw_down_file(const ExportFacts& facts) {
 }  // namespace
 
 std::vector<ExportedFile> liggghts_files_of_poured_grains(const ExportFacts& facts) {
-  const bool is_filled = facts.has_deck(dem::Experiment::fill);
-  const bool is_drawn_down = facts.has_deck(dem::Experiment::draw_down);
+  const bool is_filled = facts.has_deck(dem::experiment_of<dem::FillProtocol>());
+  const bool is_drawn_down = facts.has_deck(dem::experiment_of<dem::DrawDownProtocol>());
   std::vector<ExportedFile> files;
   if (is_filled || is_drawn_down) files.push_back(pour_file(facts));
   if (is_filled) files.push_back(fill_file(facts));

@@ -30,7 +30,7 @@ ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphe
 
 /// Grains that fall, one after the other.
 struct DropDeck {
-  dem::Experiment experiment = dem::Experiment::drop;
+  dem::Experiment experiment = nullptr;
   std::string ground;   ///< what they fall on, for people
   std::string section;  ///< of the template that makes it
   double height_m = 0;

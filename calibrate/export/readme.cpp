@@ -4,7 +4,9 @@
 
 #include "calibrate/export/targets.h"
 #include "dem/contact/model_names.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 
 namespace repose::calibrate {
 namespace {
@@ -53,7 +55,7 @@ void add_conversion(const Conversion& conversion, DeckFields& fields) {
 }
 
 bool has_low_drop(const ExportFacts& facts) {
-  return facts.has(dem::Experiment::drop) &&
+  return facts.has(dem::experiment_of<dem::DropProtocol>()) &&
          facts.study().protocol<dem::DropProtocol>().low_height_m.has_value();
 }
 
@@ -69,9 +71,9 @@ void add_left_out(const ExportFacts& facts, ExportTarget target, DeckFields& fie
 }
 
 std::string heap_stiffness_text(const ExportFacts& facts) {
-  if (!facts.has(dem::Experiment::heap)) return "The study has no heaps.";
+  if (!facts.has(dem::experiment_of<dem::HeapProtocol>())) return "The study has no heaps.";
   return fmt::format("Heaps, and their decks, have Young's moduli times {}.",
-                     number(facts.stiffness(dem::Experiment::heap)));
+                     number(facts.stiffness(dem::experiment_of<dem::HeapProtocol>())));
 }
 
 /// Decks have grains of the mean size; EDEM has sizes of its own.

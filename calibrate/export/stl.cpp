@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "dem/experiment/draw_down.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/roll.h"
 
 namespace repose::calibrate {

@@ -2,7 +2,10 @@
 
 #include <string>
 
+#include "dem/experiment/draw_down.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/roll.h"
 
 /// Walls as STL files in text form, in metres: for programs whose walls are meshes.
 namespace repose::calibrate {

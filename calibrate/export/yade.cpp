@@ -6,8 +6,12 @@
 #include "calibrate/export/rolling.h"
 #include "calibrate/export/targets.h"
 #include "dem/contact/restitution.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 
 namespace repose::calibrate {
 namespace {
@@ -34,7 +38,7 @@ void set_pair(const std::string& prefix, const std::string& pair, double restitu
 
 /// A heap's; no other experiment of YADE's has a part of another material.
 bool has_own_tube(const ExportFacts& facts) {
-  return facts.has(dem::Experiment::heap) &&
+  return facts.has(dem::experiment_of<dem::HeapProtocol>()) &&
          facts.study().model.parts.contains(dem::WallPart::tube);
 }
 
@@ -56,7 +60,7 @@ ExportedFile yade_grain_file(const ExportFacts& facts, const Conversions& conver
   fields.set("GRAIN_POISSON", study.model.grain_material.poisson_ratio);
   const std::string walls = "contact.particle_wall.";
   // Without a heap grains never touch each other.
-  const bool has_heap = facts.has(dem::Experiment::heap);
+  const bool has_heap = facts.has(dem::experiment_of<dem::HeapProtocol>());
   const std::string grains = has_heap ? "contact.particle_particle." : walls;
   const dem::PairCoefficients& with_wall = study.model.grain_wall;
   set_pair("WALL", walls, with_wall.restitution, facts, conversions, wall, fields);
@@ -67,7 +71,7 @@ ExportedFile yade_grain_file(const ExportFacts& facts, const Conversions& conver
     DeckFields& tube = fields.add_section("TUBE");
     tube.set("TUBE_NAME", sanitized(surface.material.name));
     set_pair("TUBE", "contact.particle_tube.", surface.with_grain.restitution, facts, conversions,
-             facts.law(dem::Experiment::heap, dem::WallPart::tube), tube);
+             facts.law(dem::experiment_of<dem::HeapProtocol>(), dem::WallPart::tube), tube);
   }
   return {.name = "grain.py", .text = filled("yade/grain.py", fields)};
 }
@@ -81,16 +85,16 @@ DeckFields yade_fields(const ExportFacts& facts, dem::Experiment experiment) {
 
 ExportedFile yade_drop_file(const ExportFacts& facts) {
   const dem::DropProtocol& protocol = facts.study().protocol<dem::DropProtocol>();
-  const double speed = facts.speed_m_s(dem::Experiment::drop);
+  const double speed = facts.speed_m_s(dem::experiment_of<dem::DropProtocol>());
   const double reach = facts.grain().reach_m();
-  DeckFields fields = yade_fields(facts, dem::Experiment::drop);
+  DeckFields fields = yade_fields(facts, dem::experiment_of<dem::DropProtocol>());
   fields.set("HEIGHT_MM", 1e3 * protocol.height_m);
   fields.set("GRAINS", protocol.grains);
   fields.set("SPEED", speed);
   fields.set("SPACING", 8 * (protocol.height_m + reach));
   fields.set("EVERY", 5);
-  fields.set("STEPS", steps(facts.longest_drop_s(dem::Experiment::drop),
-                            facts.timestep_s(dem::Experiment::drop)));
+  fields.set("STEPS", steps(facts.longest_drop_s(dem::experiment_of<dem::DropProtocol>()),
+                            facts.timestep_s(dem::experiment_of<dem::DropProtocol>())));
   for (const TouchingPose& pose : facts.drop_poses()) {
     DeckFields& own = fields.add_section("POSE");
     own.set("HEIGHT", pose.height_m);
@@ -103,7 +107,7 @@ ExportedFile yade_tilt_file(const ExportFacts& facts) {
   const dem::TiltProtocol& protocol = facts.study().protocol<dem::TiltProtocol>();
   const TouchingPose pose = facts.tilt_pose();
   const double begin = facts.tilt_begin_deg();
-  DeckFields fields = yade_fields(facts, dem::Experiment::tilt);
+  DeckFields fields = yade_fields(facts, dem::experiment_of<dem::TiltProtocol>());
   add_balls(facts.tilt_body(), fields);
   set_body(facts.tilt_body(), facts.study().model.grain_material.density_kg_m3, fields);
   set_pose(pose.orientation, fields);
@@ -112,16 +116,16 @@ ExportedFile yade_tilt_file(const ExportFacts& facts) {
   fields.set("BEGIN", begin);
   fields.set("HEIGHT", pose.height_m);
   fields.set("STEPS", steps(.1 + (90 - begin) / protocol.rate_deg_s,
-                            facts.timestep_s(dem::Experiment::tilt)));
+                            facts.timestep_s(dem::experiment_of<dem::TiltProtocol>())));
   return {.name = "tilt.py", .text = filled("yade/tilt.py", fields)};
 }
 
 ExportedFile yade_roll_file(const ExportFacts& facts) {
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
   const dem::Grain start = facts.roll_start();
-  const double timestep = facts.timestep_s(dem::Experiment::roll);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::RollProtocol>());
   const double length = 4 * (protocol.release_m + 10 * facts.grain().reach_m());
-  DeckFields fields = yade_fields(facts, dem::Experiment::roll);
+  DeckFields fields = yade_fields(facts, dem::experiment_of<dem::RollProtocol>());
   set_pose(start.orientation, fields);
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
   fields.set("INCLINE", protocol.incline_deg);
@@ -138,10 +142,10 @@ ExportedFile yade_roll_file(const ExportFacts& facts) {
 
 ExportedFile yade_heap_file(const ExportFacts& facts) {
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
-  const double timestep = facts.timestep_s(dem::Experiment::heap);
+  const double timestep = facts.timestep_s(dem::experiment_of<dem::HeapProtocol>());
   const double reach = facts.grain().reach_m();
   const int grains = grains_in_heap(facts);
-  DeckFields fields = yade_fields(facts, dem::Experiment::heap);
+  DeckFields fields = yade_fields(facts, dem::experiment_of<dem::HeapProtocol>());
   fields.set("GRAINS", grains);
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
@@ -162,10 +166,11 @@ ExportedFile yade_heap_file(const ExportFacts& facts) {
 
 std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {yade_grain_file(facts, conversions)};
-  if (facts.has(dem::Experiment::drop)) files.push_back(yade_drop_file(facts));
-  if (facts.has(dem::Experiment::tilt)) files.push_back(yade_tilt_file(facts));
-  if (facts.has_deck(dem::Experiment::roll)) files.push_back(yade_roll_file(facts));
-  if (facts.has(dem::Experiment::heap)) files.push_back(yade_heap_file(facts));
+  if (facts.has(dem::experiment_of<dem::DropProtocol>())) files.push_back(yade_drop_file(facts));
+  if (facts.has(dem::experiment_of<dem::TiltProtocol>())) files.push_back(yade_tilt_file(facts));
+  if (facts.has_deck(dem::experiment_of<dem::RollProtocol>()))
+    files.push_back(yade_roll_file(facts));
+  if (facts.has(dem::experiment_of<dem::HeapProtocol>())) files.push_back(yade_heap_file(facts));
   return files;
 }
 

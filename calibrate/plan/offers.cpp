@@ -13,7 +13,7 @@
 #include "calibrate/plan/plan.h"
 #include "calibrate/start/usual_experiment.h"
 #include "calibrate/study/study_simulator.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 
@@ -27,9 +27,9 @@ std::array<double, 3> sizes_mm(const dem::ClumpShape& grain) {
   return {length_mm, width_mm, width_mm};
 }
 
-UsualBench bench_of(const dem::Study& study, const dem::ClumpShape& grain) {
-  UsualBench bench{.grain_mm = sizes_mm(grain),
-                   .young_modulus_pa = study.model.grain_material.young_modulus_pa};
+dem::UsualBench bench_of(const dem::Study& study, const dem::ClumpShape& grain) {
+  dem::UsualBench bench{.grain_mm = sizes_mm(grain),
+                        .young_modulus_pa = study.model.grain_material.young_modulus_pa};
   constexpr double kHeightOfWidth = 3;
   bench.tube_diameter_mm = usual_tube_diameter_mm(bench.grain_mm);
   bench.tube_height_mm = kHeightOfWidth * bench.tube_diameter_mm;
@@ -57,7 +57,7 @@ Problem with_all(dem::Study study, const dem::ClumpFile& grain, const Budget& bu
 }
 
 dem::Experiment named(const Experiment& experiment) {
-  return dem::experiment_named(experiment.name).experiment;
+  return &dem::experiment_named(experiment.name);
 }
 
 /// Leaves out what was added until the fewest runs of all take no longer than `core_s`.
@@ -88,28 +88,28 @@ void keep_within(double core_s, OfferedStudy& offered) {
 
 std::set<dem::Experiment> every_experiment() {
   std::set<dem::Experiment> all;
-  for (const dem::ExperimentEntry& entry : dem::all_experiments()) all.insert(entry.experiment);
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) all.insert(&entry);
   return all;
 }
 
 OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
                            const Budget& budget, const std::set<dem::Experiment>& possible) {
   OfferedStudy offered{.study = study, .added = {}, .problem = {}, .notes = {}};
-  const UsualBench bench = bench_of(study, grain.shape);
+  const dem::UsualBench bench = bench_of(study, grain.shape);
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    if (study.experiments.contains(entry.experiment) || !possible.contains(entry.experiment)) {
+    if (study.experiments.contains(&entry) || !possible.contains(&entry)) {
       continue;
     }
     const dem::StudyExperiment usual = usual_experiment(entry, bench);
-    offered.added.emplace(entry.experiment, usual);
-    offered.study.experiments.emplace(entry.experiment, usual);
+    offered.added.emplace(&entry, usual);
+    offered.study.experiments.emplace(&entry, usual);
   }
   offered.problem = with_all(offered.study, grain, budget);
   // A problem that is dearer than its budget was given more.
   offered.problem.settings.budget_s = budget.settings.budget_s;
   keep_within(kFirstFraction * budget.settings.budget_s, offered);
   for (const auto& [experiment, usual] : offered.added) {
-    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    const dem::ExperimentEntry& entry = *experiment;
     if (entry.systematic == nullptr || !(entry.systematic(usual.protocol).sd > 0)) continue;
     offered.notes.push_back(
         fmt::format("{}: {}.", entry.name, entry.systematic(usual.protocol).note));
@@ -131,7 +131,7 @@ std::vector<Offer> offers_in(const RunStore& folder, const dem::Study& study,
   std::vector<Offer> offers;
   for (const Experiment& experiment : offered.problem.experiments) {
     const dem::ExperimentEntry& entry = dem::experiment_named(experiment.name);
-    const auto added = offered.added.find(entry.experiment);
+    const auto added = offered.added.find(&entry);
     if (added == offered.added.end()) continue;
     offers.push_back(
         {.experiment = experiment, .study_lines = study_section(entry, added->second), .runs = {}});

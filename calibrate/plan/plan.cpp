@@ -12,7 +12,7 @@
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/rounds.h"
 #include "calibrate/study/job_runner.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 
@@ -125,7 +125,7 @@ class PlanRuns {
       runs_.insert(runs_.end(), done->begin(), done->end());
       plan.run_s[experiment.name] = mean_wall_s(jobs);
     } catch (const base::InputError& error) {
-      if (!offered_.added.contains(dem::experiment_named(experiment.name).experiment)) throw;
+      if (!offered_.added.contains(&dem::experiment_named(experiment.name))) throw;
       plan.notes.push_back(
           fmt::format("{} is left out: as it is usually done it cannot be run with "
                       "these grains. To have it in the plan, describe it in the "

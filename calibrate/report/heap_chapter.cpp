@@ -16,6 +16,7 @@
 #include "calibrate/report/heap_model.h"
 #include "calibrate/report/picture_data.h"
 #include "calibrate/report/wording.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/state/state_file.h"
 #include "render/renderer.h"
 #include "vision/compare/heap_comparison.h"
@@ -144,12 +145,13 @@ std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPic
 }
 
 /// The camera that the study's photographs were taken with, if it says so.
-std::optional<HeapCamera> stated_camera(const ReportedStudy& study) {
+std::optional<dem::LevelCamera> stated_camera(const ReportedStudy& study) {
   if (!study.record) return std::nullopt;
   const auto& experiments = study.record->study.experiments;
-  const auto heap = experiments.find(dem::Experiment::heap);
-  if (heap == experiments.end()) return std::nullopt;
-  return camera_of(std::get<dem::HeapProtocol>(heap->second.protocol));
+  const dem::ExperimentEntry& pictured = dem::pictured_experiment();
+  const auto described = experiments.find(&pictured);
+  if (described == experiments.end()) return std::nullopt;
+  return pictured.camera(described->second.protocol);
 }
 
 MeasuredHeap rendered(const HeapViewSession& session, int view) {
@@ -160,7 +162,7 @@ MeasuredHeap rendered(const HeapViewSession& session, int view) {
           .angle = std::move(taken.angle)};
 }
 
-ShownPicture camera_look(const render::Scene& scene, const HeapCamera& camera,
+ShownPicture camera_look(const render::Scene& scene, const dem::LevelCamera& camera,
                          const std::optional<render::Colour>& grain_colour) {
   constexpr render::PictureSize kSize{.width = 1050, .height = 700};
   constexpr int kPasses = 8;
@@ -247,7 +249,7 @@ void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, Heap
 std::string definition_of(const ReportedStudy& study) {
   if (!study.record) return {};
   const auto& experiments = study.record->study.experiments;
-  const auto heap = experiments.find(dem::Experiment::heap);
+  const auto heap = experiments.find(&dem::pictured_experiment());
   return heap == experiments.end() ? std::string() : heap->second.definition;
 }
 
@@ -279,7 +281,7 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
     shown.heap_model->colour = colour;
     constexpr int kRenderSide_px = 900;
     std::optional<MeasuredHeap> compared;
-    const std::optional<HeapCamera> camera = stated_camera(study);
+    const std::optional<dem::LevelCamera> camera = stated_camera(study);
     const HeapViewSession session(scene, {.views = kShownViews, .camera = camera});
     for (int view = 0; view < session.views(); ++view) {
       MeasuredHeap heap = rendered(session, view);
@@ -287,7 +289,7 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
       shown.renders.push_back(with_overlay(heap, kRenderSide_px, "Simulated heap,"));
       if (!compared && heap.angle.angle_rad) compared = std::move(heap);
     }
-    constexpr HeapCamera kUsual{.distance_m = 1.5, .height_m = .038};
+    constexpr dem::LevelCamera kUsual{.distance_m = 1.5, .height_m = .038};
     shown.look = camera_look(scene, camera.value_or(kUsual), colour);
     if (photograph && compared) compare(*photograph, *compared, shown);
   } catch (const std::exception& error) {

@@ -13,8 +13,8 @@
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
 #include "calibrate/study/study_record.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/config.h"
-#include "dem/study/experiment_table.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -166,7 +166,7 @@ std::string measured_text(const StudyRecord& record, const dem::ExperimentEntry&
 
 void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry,
                     const Stated& stated, Table& table) {
-  const auto described = record.study.experiments.find(entry.experiment);
+  const auto described = record.study.experiments.find(&entry);
   if (described == record.study.experiments.end()) return;
   Settings settings;
   dem::Protocol protocol = described->second.protocol;

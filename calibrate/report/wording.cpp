@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/distributions.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -104,7 +104,7 @@ std::string axis_of_observable(const std::string& name, const std::string& unit)
 bool has_heap(const StudyResult& result) {
   const NamedValues& experiments = result.provenance.stiffness_factor;
   return std::any_of(experiments.begin(), experiments.end(), [](const auto& experiment) {
-    return experiment.first == dem::name_of(dem::Experiment::heap);
+    return experiment.first == dem::pictured_experiment().name;
   });
 }
 

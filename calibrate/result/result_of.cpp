@@ -17,7 +17,7 @@
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/study_simulator.h"
 #include "dem/contact/model_names.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/held_inputs.h"
 
 namespace repose::calibrate {
@@ -186,8 +186,8 @@ std::optional<double> size_sd_percent(const dem::Model& model) {
 
 std::optional<HeapDefinition> heap_definition_of(const StudyRecord& record, const Problem& problem,
                                                  const NamedAngles& simulated_deg) {
-  const dem::ExperimentEntry& entry = dem::entry_of(dem::Experiment::heap);
-  const auto heap = record.study.experiments.find(entry.experiment);
+  const dem::ExperimentEntry& entry = dem::pictured_experiment();
+  const auto heap = record.study.experiments.find(&entry);
   const auto is_of_heaps = [&](const Observable& one) { return one.experiment == entry.name; };
   const bool is_used = std::ranges::any_of(problem.observables, is_of_heaps) ||
                        std::ranges::any_of(problem.held_out, is_of_heaps);
@@ -202,7 +202,7 @@ Provenance provenance_of(const StudyRecord& record, const Problem& problem,
   const dem::Study& study = record.study;
   NamedValues stiffness;
   for (const Experiment& experiment : problem.experiments) {
-    const dem::Experiment simulated = dem::experiment_named(experiment.name).experiment;
+    const dem::Experiment simulated = &dem::experiment_named(experiment.name);
     stiffness.emplace_back(experiment.name, dem::model_for(study, simulated).stiffness_factor);
   }
   return {.study = identity_of(record),

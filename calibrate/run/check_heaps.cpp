@@ -11,6 +11,7 @@
 #include "base/atomic_file.h"
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/study/study_record.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/state/state_file.h"
 
 namespace repose::calibrate {
@@ -62,7 +63,7 @@ void save_check_heaps(const fs::path& folder, const StudyContext& context,
   std::vector<Job> saved;
   std::vector<double> angles;
   for (const Run& run : checks) {
-    if (run.job.experiment != "heap" || !run.failure.empty()) continue;
+    if (run.job.experiment != dem::pictured_experiment().name || !run.failure.empty()) continue;
     make_folder(folder / kHeapsFolder);
     const std::string name = fmt::format("heap_seed_{}.vtp", run.job.seed);
     if (!copy_to(run.job, fs::path(kHeapsFolder) / name)) continue;

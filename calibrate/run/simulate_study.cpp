@@ -11,7 +11,7 @@
 #include "calibrate/experiment/run_spec.h"
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/experiment/simulate_experiment.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
 
 namespace repose::calibrate {
@@ -20,11 +20,11 @@ namespace {
 /// The experiment must be described, and what it needs must have a value.
 void check(const dem::Study& study, const dem::ExperimentEntry& entry) {
   base::Faults faults;
-  faults.require(dem::has_protocol(study, entry.experiment),
+  faults.require(dem::has_protocol(study, &entry),
                  {.where = study.file.string(),
                   .value = fmt::format("section [experiment.{}] is missing", entry.name),
                   .fix = "add it; all its keys have usual values."});
-  for (const std::string& key : dem::open_coefficients(study, entry.experiment)) {
+  for (const std::string& key : dem::open_coefficients(study, &entry)) {
     faults.add({.where = study.file.string(),
                 .value = fmt::format("{} has bounds but no value, which a simulation needs", key),
                 .fix = "give it one, or calibrate the study."});
@@ -39,7 +39,7 @@ SimulatedRun simulate_study(const dem::Study& study, std::string_view experiment
   const dem::ExperimentEntry& entry = dem::experiment_named(experiment);
   check(study, entry);
   const RunSpec spec =
-      spec_of(study, entry.experiment, NamedGrain(dem::build_grain(study.grain)), kHeapViews);
+      spec_of(study, &entry, NamedGrain(dem::build_grain(study.grain)), kHeapViews);
   if (folder.empty()) {
     return {.result = simulate_experiment(spec, seed, {.trajectory = {}, .report = {}}),
             .state = {}};

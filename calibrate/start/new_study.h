@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_table.h"
 
 /// A study that is yet to be measured: its file with comments, a sheet for each experiment to fill
 /// in at the bench, and what is typical of kinds of particle and plate until it is measured.
@@ -70,7 +70,7 @@ double grains_in_tube(const NewStudy& study);
 
 /// A sheet of readings.
 struct NewSheet {
-  dem::Experiment experiment = dem::Experiment::drop;
+  dem::Experiment experiment = nullptr;
   std::string name;                  ///< without its folder: "drops.csv"
   std::vector<std::string> columns;  ///< each with its unit: "rebound_mm"
 };
@@ -80,7 +80,7 @@ std::vector<NewSheet> sheets_of(const NewStudy& study);
 /// "Soybeans on acrylic".
 std::string title_of(const NewStudy& study);
 
-bool makes_heaps(const NewStudy& study);
+bool needs_tube(const NewStudy& study);
 
 /// Values of the study file that are assumed, as its list names them.
 std::vector<std::string> assumed_names(const NewStudy& study);

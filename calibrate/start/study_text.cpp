@@ -18,7 +18,7 @@
 #include "calibrate/start/new_study.h"
 #include "calibrate/start/usual_experiment.h"
 #include "calibrate/statistics/bench/sheet.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 
@@ -56,7 +56,7 @@ int spheres_for(const std::array<double, 3>& sizes_mm) {
   return *most <= kNearlyRound * *least ? kFew : kUsual;
 }
 
-UsualBench bench_of(const NewStudy& study) {
+dem::UsualBench bench_of(const NewStudy& study) {
   return {.grain_mm = study.sizes_mm,
           .young_modulus_pa = study.grain.young_modulus_pa,
           .tube_diameter_mm = study.tube_diameter_mm,
@@ -111,9 +111,8 @@ std::string wall_sections(const NewStudy& study) {
 }
 
 bool is_told(const NewStudy& study, const std::string& coefficient) {
-  return std::any_of(study.experiments.begin(), study.experiments.end(), [&](dem::Experiment one) {
-    return dem::depends_on(dem::entry_of(one), coefficient);
-  });
+  return std::any_of(study.experiments.begin(), study.experiments.end(),
+                     [&](dem::Experiment one) { return dem::depends_on(*one, coefficient); });
 }
 
 /// Bounds, and between them a value for repose simulate.
@@ -206,7 +205,7 @@ std::string experiment_section(const dem::ExperimentEntry& entry, const NewStudy
         fmt::format("Until it is added below: {}.", entry.systematic(usual.protocol).note));
   }
   text += protocol_lines(entry, usual.protocol);
-  if (dem::has_grain_contacts(entry.experiment) && entry.softening_effect.empty()) {
+  if (dem::has_grain_contacts(&entry) && entry.softening_effect.empty()) {
     text += toml_comment("Fraction of the real stiffness: softer grains are simulated faster.");
     text += fmt::format("stiffness_factor = {}\n", toml_number(usual.stiffness_factor));
   }
@@ -239,7 +238,7 @@ double grains_in_tube(const NewStudy& study) {
 std::vector<NewSheet> sheets_of(const NewStudy& study) {
   std::vector<NewSheet> sheets;
   for (const dem::Experiment experiment : study.experiments) {
-    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    const dem::ExperimentEntry& entry = *experiment;
     sheets.push_back(
         {.experiment = experiment,
          .name = fmt::format("{}{}.csv", entry.name, entry.name.ends_with('s') ? "" : "s"),
@@ -254,8 +253,8 @@ std::string title_of(const NewStudy& study) {
   return title;
 }
 
-bool makes_heaps(const NewStudy& study) {
-  return std::ranges::find(study.experiments, dem::Experiment::heap) != study.experiments.end();
+bool needs_tube(const NewStudy& study) {
+  return std::ranges::any_of(study.experiments, &dem::ExperimentEntry::needs_tube);
 }
 
 std::vector<std::string> assumed_names(const NewStudy& study) {
@@ -275,9 +274,10 @@ std::vector<std::string> assumed_names(const NewStudy& study) {
       names.push_back(fmt::format("contact.particle_{}.{}", name_of(part), key));
     }
   }
-  if (!study.has_own_tube && makes_heaps(study)) {
+  for (const dem::Experiment experiment : study.experiments) {
+    if (study.has_own_tube || !experiment->needs_tube) continue;
     for (const char* key : {"tube_diameter_mm", "tube_height_mm"}) {
-      names.push_back(fmt::format("experiment.heap.{}", key));
+      names.push_back(fmt::format("experiment.{}.{}", experiment->name, key));
     }
   }
   return names;
@@ -301,7 +301,7 @@ std::string study_text(const NewStudy& study, const std::string& folder) {
       fmt::format("assumed = [\n  \"{}\",\n]\n\n", fmt::join(assumed_names(study), "\",\n  \""));
   text += particle_section(study) + '\n' + wall_sections(study) + '\n' + contacts(study);
   for (const NewSheet& sheet : sheets_of(study)) {
-    text += '\n' + experiment_section(dem::entry_of(sheet.experiment), study, folder, sheet.name);
+    text += '\n' + experiment_section(*sheet.experiment, study, folder, sheet.name);
   }
   return text;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/fit/points.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {

@@ -14,7 +14,7 @@
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/study_simulator.h"
 #include "dem/contact/adhesion.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/held_inputs.h"
 
 namespace repose::calibrate {
@@ -39,7 +39,7 @@ std::string unit_of(const dem::ExperimentEntry& entry, const std::string& readin
 /// About how long a run takes, s. Coefficients still open do not matter much to it.
 double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
                   const dem::ExperimentEntry& entry) {
-  dem::Model model = dem::model_for(study, entry.experiment);
+  dem::Model model = dem::model_for(study, &entry);
   model.grain = grain;
   std::vector<dem::PairCoefficients*> pairs = {&model.grain_wall, &model.grain_grain};
   for (auto& [part, surface] : model.parts) pairs.push_back(&surface.with_grain);
@@ -49,7 +49,7 @@ double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
     }
     pair->restitution_exponent = 0;
   }
-  return entry.cost_s(model, study.experiments.at(entry.experiment).protocol);
+  return entry.cost_s(model, study.experiments.at(&entry).protocol);
 }
 
 /// What part of that goes with the number of spheres.
@@ -139,15 +139,13 @@ Observable observable_of(const dem::Measured& measured, double usual_scatter) {
   return observable;
 }
 
-/// What a bench can have read, in the experiment's unit. A tube that is full of grains holds some
-/// percent of them at least: loose fibres 5, random packings of anything rounder 50 or more.
+/// What a bench can have read, in the experiment's unit.
 dem::Range measurable_range(const dem::Study& study, const dem::ClumpShape& grain,
                             const dem::ExperimentEntry& entry) {
-  dem::Model model = dem::model_for(study, entry.experiment);
+  dem::Model model = dem::model_for(study, &entry);
   model.grain = grain;
-  dem::Range range = entry.possible(model, study.experiments.at(entry.experiment).protocol);
-  constexpr double kLoosest = .05;
-  if (entry.experiment == dem::Experiment::fill) range.from = kLoosest * range.to;
+  dem::Range range = entry.possible(model, study.experiments.at(&entry).protocol);
+  if (entry.least_of_possible > 0) range.from = entry.least_of_possible * range.to;
   return range;
 }
 
@@ -187,7 +185,7 @@ std::vector<FixedInput> fixed_inputs_of(const dem::Study& study, const dem::Clum
     dem::change_input(changed, held.name, held.step);
     for (const Experiment& experiment : measured_experiments(problem)) {
       const dem::ExperimentEntry& entry = dem::experiment_named(experiment.name);
-      if (!dem::has_effect(held.name, entry.experiment)) continue;
+      if (!dem::has_effect(held.name, &entry)) continue;
       input.experiments.push_back(experiment.name);
       input.step.work =
           std::max(input.step.work, run_cost_s(changed, grain, entry) / experiment.run_s);
@@ -232,7 +230,7 @@ class StudyProblemBuilder {
 
  private:
   void add(const dem::ExperimentEntry& entry) {
-    const auto described = study_.experiments.find(entry.experiment);
+    const auto described = study_.experiments.find(&entry);
     if (described == study_.experiments.end()) return;
     const std::string name(entry.name);
     std::vector<std::size_t> with_effect;
@@ -244,7 +242,7 @@ class StudyProblemBuilder {
                                                    ? dem::SystematicFraction{}
                                                    : entry.systematic(described->second.protocol);
     note_pictures_of_heaps(measured);
-    note_unknown_camera(described->second);
+    note_unknown_camera(entry, described->second);
     note_unknown_definition(entry, described->second);
     const bool is_measured = measured.mean || !measured.values.empty();
     if (with_effect.empty()) {
@@ -264,7 +262,7 @@ class StudyProblemBuilder {
          .measurable = measurable(entry),
          .readings_per_run = readings_per_run(entry),
          .scatter_within = entry.is_pictured ? kOneViewScatter : "",
-         .real_stiffness = 1 / dem::model_for(study_, entry.experiment).stiffness_factor,
+         .real_stiffness = 1 / dem::model_for(study_, &entry).stiffness_factor,
          .spheres_share = spheres_share(study_, grain_.shape, entry),
          .systematic_fraction = systematic.sd,
          .systematic_sd = stated_sd(measured.systematic),
@@ -291,22 +289,23 @@ class StudyProblemBuilder {
     if (!measured.within_heaps) return;
     const auto& [pictures, sd] = *measured.within_heaps;
     made_.notes.push_back(fmt::format(
-        "[experiment.heap] has {} pictures of {} heaps, and each heap counts once, with the mean "
+        "[experiment.{}] has {} pictures of {} heaps, and each heap counts once, with the mean "
         "of its pictures. Pictures of one heap scatter by {:.2g} deg (standard deviation), which "
         "says nothing about how heaps differ",
-        pictures, measured.values.size(), sd));
+        dem::pictured_experiment().name, pictures, measured.values.size(), sd));
   }
 
-  void note_unknown_camera(const dem::StudyExperiment& described) {
-    const auto* heap = std::get_if<dem::HeapProtocol>(&described.protocol);
+  void note_unknown_camera(const dem::ExperimentEntry& entry,
+                           const dem::StudyExperiment& described) {
     const dem::Measured& measured = described.measured;
-    if (heap == nullptr || heap->camera_distance_m) return;
+    if (entry.camera == nullptr || entry.camera(described.protocol)) return;
     if (measured.pictures.empty() && measured.videos.empty()) return;
-    made_.notes.emplace_back(
-        "[experiment.heap] does not say where its pictures were taken from, and simulated heaps "
+    made_.notes.push_back(fmt::format(
+        "[experiment.{}] does not say where its pictures were taken from, and simulated heaps "
         "are seen from far away: of heaps of nuts a level camera three widths away reads 0.8 "
         "degrees less than that. Fix: camera_distance_mm, from the heap's middle to the lens, and "
-        "camera_height_mm, of the lens above the plate");
+        "camera_height_mm, of the lens above the plate",
+        entry.name));
   }
 
   void note_unknown_definition(const dem::ExperimentEntry& entry,
@@ -322,7 +321,7 @@ class StudyProblemBuilder {
 
   int readings_per_run(const dem::ExperimentEntry& entry) const {
     if (entry.readings_per_run == nullptr) return 1;
-    return entry.readings_per_run(study_.experiments.at(entry.experiment).protocol);
+    return entry.readings_per_run(study_.experiments.at(&entry).protocol);
   }
 
   /// A study of many grains costs more than a budget is made for.
@@ -426,22 +425,23 @@ void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
   }
 }
 
-/// A rebound from the lower height of a drop that is higher than that.
-void find_impossible_low_rebound(const dem::Study& study, const dem::ClumpShape& grain,
-                                 const dem::StudyExperiment& described,
-                                 std::vector<base::Fault>& errors) {
-  const auto* drop = std::get_if<dem::DropProtocol>(&described.protocol);
-  if (drop == nullptr || !drop->low_height_m) return;
-  const double most_mm = 1e3 * (*drop->low_height_m + 2 * grain.reach_m());
+/// Readings beside the value that are above what they can be.
+void find_impossible_readings(const dem::Study& study, const dem::ClumpShape& grain,
+                              const dem::ExperimentEntry& entry,
+                              const dem::StudyExperiment& described,
+                              std::vector<base::Fault>& errors) {
+  dem::Model model = dem::model_for(study, &entry);
+  model.grain = grain;
   for (const dem::MeasuredReading& reading : described.measured.also) {
-    if (reading.name != "low_rebound_mm" || reading.mean <= most_mm) continue;
+    const dem::Reading& known = reading_named(entry, reading.name);
+    const auto limit =
+        known.limit == nullptr ? std::nullopt : known.limit(model, described.protocol);
+    if (!limit || reading.mean <= limit->most) continue;
     errors.push_back(
         {.where = study.file.string(),
-         .value = fmt::format("[experiment.drop.also_measured] low_rebound_mm = {:.10g} mm",
-                              reading.mean),
-         .rule = fmt::format(
-             "at most {:.4g} mm, low_height_mm = {:.4g} and from lying to standing with this grain",
-             most_mm, 1e3 * *drop->low_height_m),
+         .value = fmt::format("[experiment.{}.also_measured] {} = {:.10g} {}", entry.name,
+                              reading.name, reading.mean, known.unit),
+         .rule = fmt::format("at most {:.4g} {}, {}", limit->most, known.unit, limit->reason),
          .fix = "correct the reading, or the study."});
   }
 }
@@ -452,8 +452,8 @@ std::vector<base::Fault> impossible_readings(const dem::Study& study,
                                              const dem::ClumpShape& grain) {
   std::vector<base::Fault> errors;
   for (const auto& [experiment, described] : study.experiments) {
-    find_impossible_low_rebound(study, grain, described, errors);
-    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    find_impossible_readings(study, grain, *experiment, described, errors);
+    const dem::ExperimentEntry& entry = *experiment;
     const dem::Range range = measurable_range(study, grain, entry);
     std::vector<double> readings = described.measured.values;
     if (described.measured.mean) readings.push_back(*described.measured.mean);

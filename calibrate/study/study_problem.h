@@ -5,8 +5,8 @@
 
 #include "base/input_error.h"
 #include "calibrate/fit/problem.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/shape/clump/clump_file.h"
-#include "dem/study/experiment_table.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {

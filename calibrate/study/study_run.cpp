@@ -18,6 +18,7 @@
 #include "calibrate/fit/solution.h"
 #include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_estimate.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
@@ -35,7 +36,8 @@ void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>
   double most = 0, least = std::numeric_limits<double>::infinity();
   for (const Run& run : runs) {
     const auto grains = run.readings.find("grains");
-    if (run.job.experiment != "heap" || grains == run.readings.end()) continue;
+    const bool may_be_fewer = dem::experiment_named(run.job.experiment).grains_asked != nullptr;
+    if (!may_be_fewer || grains == run.readings.end()) continue;
     most = std::max(most, grains->second);
     least = std::min(least, grains->second);
   }

@@ -13,6 +13,7 @@
 
 #include "base/angle_definition.h"
 #include "base/input_error.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/held_inputs.h"
 
 namespace repose::calibrate {
@@ -136,7 +137,7 @@ const NamedGrain& StudySimulator::grain(const dem::GrainSource& source,
 }
 
 RunSpec StudySimulator::spec(const Job& job) const {
-  const dem::Experiment experiment = dem::experiment_named(job.experiment).experiment;
+  const dem::Experiment experiment = &dem::experiment_named(job.experiment);
   const InputStep& step = job.inputs.step;
   std::optional<dem::Study> changed;
   if (!step.input.empty()) dem::change_input(changed.emplace(study_), step.input, step.change);

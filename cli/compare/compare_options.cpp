@@ -12,6 +12,7 @@
 #include "cli/common/output.h"
 #include "cli/common/picture_options.h"
 #include "cli/compare/compare.h"
+#include "dem/experiment/experiment_table.h"
 #include "vision/files/file_list.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/scale_bar.h"
@@ -41,7 +42,8 @@ bool is_picture(const fs::path& file) {
 }
 
 bool is_heap_state(const fs::path& file) {
-  return has_state_ending(file) && file.filename().string().starts_with("heap");
+  return has_state_ending(file) &&
+         file.filename().string().starts_with(dem::pictured_experiment().name);
 }
 
 HeapSource folder_source(const std::string& name, std::vector<std::string>& errors) {

@@ -10,6 +10,7 @@
 #include "calibrate/experiment/heap_angle.h"
 #include "cli/common/command.h"
 #include "cli/compare/compare.h"
+#include "dem/experiment/experiment_table.h"
 #include "vision/compare/heap_comparison.h"
 
 namespace repose::cli {
@@ -56,7 +57,7 @@ struct ComparePlan {
   std::array<vision::MeasureOptions, 2> measuring;
   vision::CompareOptions comparing;
   std::optional<double> grain_m;
-  std::optional<calibrate::HeapCamera> camera;  ///< before simulated heaps; none: far away
+  std::optional<dem::LevelCamera> camera;  ///< before simulated heaps; none: far away
   bool groups_by_name = false;  ///< pictures that differ in a last number alone are of one heap
   int in_both = 0;              ///< heaps that are in both sets, found when they are read
   std::string overlay_file;

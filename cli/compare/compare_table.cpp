@@ -11,6 +11,7 @@
 
 #include "cli/common/json_text.h"
 #include "cli/common/table.h"
+#include "dem/experiment/experiment_table.h"
 #include "vision/compare/heap_comparison.h"
 #include "vision/measure/repose_angle.h"
 
@@ -251,7 +252,7 @@ std::string title_of(const HeapSource& source) {
 
 namespace {
 
-std::string distance_text(const std::optional<calibrate::HeapCamera>& camera) {
+std::string distance_text(const std::optional<dem::LevelCamera>& camera) {
   if (!camera) return "";
   return fmt::format(", from {:g} mm away and {:g} mm up", 1000 * camera->distance_m,
                      1000 * camera->height_m);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -24,8 +25,8 @@
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
 #include "dem/contact/adhesion.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/shape/scan/calliper.h"
-#include "dem/study/experiment_table.h"
 
 namespace repose::cli {
 
@@ -79,7 +80,7 @@ void read_parts(const NewArguments& arguments, NewPlan& plan) {
       if (std::ranges::find(entry.parts, part) == entry.parts.end()) continue;
       those_with += (those_with.empty() ? "" : " or ") + std::string(entry.name);
       const auto& chosen = plan.study.experiments;
-      if (std::ranges::find(chosen, entry.experiment) != chosen.end()) is_there = entry.name;
+      if (std::ranges::find(chosen, &entry) != chosen.end()) is_there = entry.name;
     }
     if (is_there.empty()) {
       plan.errors.push_back(
@@ -142,15 +143,18 @@ void read_tube(const NewArguments& arguments, NewPlan& plan) {
     study.tube_height_mm = *height;
     study.has_own_tube = true;
   }
-  const auto is_done = [&](dem::Experiment one) {
-    return std::ranges::find(study.experiments, one) != study.experiments.end();
+  const auto is_in_tube = [](const dem::ExperimentEntry& entry) {
+    return std::ranges::find(entry.parts, dem::WallPart::tube) != entry.parts.end();
   };
-  if (!is_done(dem::Experiment::heap) && !(study.has_own_tube && is_done(dem::Experiment::fill))) {
+  const bool uses_tube = std::ranges::any_of(study.experiments, [&](dem::Experiment one) {
+    return one->needs_tube || (study.has_own_tube && is_in_tube(*one));
+  });
+  if (!uses_tube) {
     if (study.has_own_tube && plan.errors.empty()) {
       plan.errors.push_back(fmt::format(
-          "--tube-mm {}: none of the experiments has a tube. Fix: leave it out, or add heap or "
-          "fill to --experiments.",
-          arguments.tube_mm));
+          "--tube-mm {}: none of the experiments has a tube. Fix: leave it out, or add {} to "
+          "--experiments.",
+          arguments.tube_mm, dem::experiment_names({.is_meant = is_in_tube})));
     }
     return;
   }
@@ -176,12 +180,12 @@ void read_experiments(const NewArguments& arguments, NewPlan& plan) {
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
     names.emplace_back(entry.name);
     if (arguments.experiments.empty() && entry.is_default) {
-      plan.study.experiments.push_back(entry.experiment);
+      plan.study.experiments.push_back(&entry);
     }
   }
   for (const std::size_t place :
        read_words({"--experiments", arguments.experiments, plan.errors}, names)) {
-    plan.study.experiments.push_back(dem::all_experiments()[place].experiment);
+    plan.study.experiments.push_back(&dem::all_experiments()[place]);
   }
 }
 
@@ -234,7 +238,7 @@ std::string assumptions_of(const calibrate::NewStudy& study) {
   if (!study.has_own_density) {
     text += fmt::format(" {:g} kg/m³ (--density-kg-m3),", study.density_kg_m3);
   }
-  if (!study.has_own_tube && makes_heaps(study)) {
+  if (!study.has_own_tube && needs_tube(study)) {
     text += fmt::format(" a tube of {:g} x {:g} mm (--tube-mm),", study.tube_diameter_mm,
                         study.tube_height_mm);
   }
@@ -254,8 +258,7 @@ std::string page_of(const NewPlan& plan, int columns) {
   page.add_gap();
   Table table({{.heading = "sheet"}, {.heading = "measures"}, {.heading = "columns"}});
   for (const calibrate::NewSheet& sheet : calibrate::sheets_of(study)) {
-    table.add_row({(folder / sheet.name).string(),
-                   std::string(dem::entry_of(sheet.experiment).value_name),
+    table.add_row({(folder / sheet.name).string(), std::string(sheet.experiment->value_name),
                    fmt::format("{}", fmt::join(sheet.columns, ", "))});
   }
   page.add(table);
@@ -315,6 +318,15 @@ Examples:
     --grain-mm 7.6,6.9,6.2 --tube-mm 50x150
 )";
 
+/// With the usual ones, as they are typed.
+std::string experiments_help() {
+  std::vector<std::string_view> names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (entry.is_default) names.push_back(entry.name);
+  }
+  return fmt::format("Of the experiments ({})", fmt::join(names, ","));
+}
+
 }  // namespace
 
 Command new_command() {
@@ -352,8 +364,7 @@ Command new_command() {
                    .words = plate_names()},
                   {"--tube-mm", "DxH", "Inner diameter and height (from grain size)",
                    &given->tube_mm},
-                  {"--experiments", "A,B,...", "Of the experiments (drop,tilt,roll,heap)",
-                   &given->experiments}},
+                  {"--experiments", "A,B,...", experiments_help(), &given->experiments}},
       .notes = kNewNotes,
       .missing = "no study file given. Fix: repose new my_study.toml.",
       .run = [given] { return run_new(*given); }};

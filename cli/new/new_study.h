@@ -18,7 +18,7 @@ struct NewArguments {
   std::string grain_mm;  ///< L,W,T
   std::string density_kg_m3;
   std::string tube_mm;      ///< DxH
-  std::string experiments;  ///< drop,tilt,roll,heap
+  std::string experiments;  ///< "drop,tilt"; empty: the usual ones
 };
 
 /// Carries out `repose new`.

@@ -17,7 +17,7 @@
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
 #include "cli/plan/plan_table.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 
@@ -39,7 +39,7 @@ std::set<dem::Experiment> possible_experiments(const std::string& typed,
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) names.emplace_back(entry.name);
   std::set<dem::Experiment> possible;
   for (const std::size_t place : read_words({"--experiments", typed, errors}, names)) {
-    possible.insert(dem::all_experiments()[place].experiment);
+    possible.insert(&dem::all_experiments()[place]);
   }
   return possible;
 }

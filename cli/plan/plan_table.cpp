@@ -9,7 +9,7 @@
 
 #include "calibrate/start/usual_experiment.h"
 #include "cli/common/table.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 namespace {
@@ -119,7 +119,7 @@ std::string conclusion(const calibrate::Plan& plan) {
 void add_section(const dem::ExperimentEntry& entry, const calibrate::OfferedStudy& offered,
                  Page& page) {
   page.add_gap();
-  const auto added = offered.added.find(entry.experiment);
+  const auto added = offered.added.find(&entry);
   if (added == offered.added.end()) {
     page.add(fmt::format("[experiment.{}] is in the study: measure it.", entry.name));
   } else {

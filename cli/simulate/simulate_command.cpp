@@ -8,24 +8,32 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "base/text.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
 #include "cli/simulate/simulate_output.h"
 #include "cli/simulate/simulate_summary.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 namespace {
 
-constexpr const char* kSimulateNotes = R"(
-EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, degrees),
-roll (distance along the flat, mm), heap (angle of repose, degrees) or, to
-tell grains apart, drop_on_grains (mm), tilt_on_grains, roll_on_grains
-(degrees), fill (bulk density, kg/m3), pendulum (swing, degrees), draw_down
-(discharged mass, %). STUDY is a study file: samples/hazelnut/study.toml
-explains many of its keys.
+/// "EXPERIMENT is drop (rebound height, mm), tilt (angle of sliding, deg)", and so on.
+std::string experiment_notes() {
+  constexpr std::size_t kColumns = 79;
+  std::string text;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    const bool is_last = &entry == &dem::all_experiments().back();
+    text += text.empty() ? "EXPERIMENT is " : is_last ? " or " : ", ";
+    text += fmt::format("{} ({}, {})", entry.name, entry.value_name, entry.unit);
+  }
+  text += ". STUDY is a study file: samples/hazelnut/study.toml explains many of its keys.";
+  return fmt::format("\n{}\n", fmt::join(base::wrapped(text, kColumns), "\n"));
+}
 
+constexpr const char* kSimulateNotes = R"(
 A heap's final state is rendered as silhouettes from --views directions,
 equally spaced over half a turn, each measured as repose measure does: 1 is the
 XZ view alone, 0 renders none. If at least half of the views of a repeat could
@@ -170,7 +178,7 @@ Command simulate_command() {
                    &given->trajectory_s},
                   {"--views", "N", "Views of each heap to measure (9)", &given->views},
                   {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
-      .notes = kSimulateNotes,
+      .notes = experiment_notes() + kSimulateNotes,
       .missing = "an experiment and a study file are needed. Fix: repose simulate heap STUDY.toml.",
       .run = [given] { return run_simulate(*given); }};
 }

@@ -16,6 +16,7 @@
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/simulate/simulate_runs.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 namespace {
@@ -58,7 +59,7 @@ void read_numbers(const SimulateArguments& arguments, SimulatePlan& plan) {
 }
 
 void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
-  if (dem::entry_of(plan.experiment).is_pictured) {
+  if (plan.experiment->is_pictured) {
     plan.views = number_of("--views", arguments.views, 0, kMaxViews,
                            "--views 9, or 1 for the XZ view alone", plan)
                      .value_or(calibrate::kHeapViews);
@@ -70,7 +71,7 @@ void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
 /// The experiment must be described, and what it needs must have a value.
 void check_study(SimulatePlan& plan) {
   const std::string file = plan.study.file.string();
-  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
+  const dem::ExperimentEntry& entry = *plan.experiment;
   const std::string_view name = entry.name;
   if (!dem::has_protocol(plan.study, plan.experiment)) {
     plan.errors.push_back(fmt::format(
@@ -122,7 +123,7 @@ void check_saved(SimulatePlan& plan) {
 /// None where the air makes no difference, or nothing was measured. A simulation needs no readings,
 /// and is made with impossible ones.
 std::optional<double> mean_without_air(SimulatePlan& plan) {
-  if (!dem::entry_of(plan.experiment).is_in_air) return std::nullopt;
+  if (!plan.experiment->is_in_air) return std::nullopt;
   try {
     const dem::Measured measured =
         dem::measured_in(calibrate::without_air(plan.study, plan.grain.shape), plan.experiment);
@@ -171,7 +172,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
     plan.errors.push_back(fmt::format("simulate {}: unknown experiment. Fix: {}.",
                                       arguments.experiment, dem::experiment_names()));
   } else {
-    plan.experiment = experiment->experiment;
+    plan.experiment = experiment;
   }
   bool is_read = false;
   try {

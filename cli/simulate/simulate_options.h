@@ -28,7 +28,7 @@ struct SimulateArguments {
 
 /// A `repose simulate` that can be carried out.
 struct SimulatePlan {
-  dem::Experiment experiment = dem::Experiment::drop;
+  dem::Experiment experiment = nullptr;  ///< null: unknown, as `errors` say
   dem::Study study;
   std::vector<std::string> settings;
   dem::ClumpFile grain;

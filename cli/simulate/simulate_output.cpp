@@ -13,6 +13,7 @@
 #include "cli/common/table.h"
 #include "cli/simulate/simulate_summary.h"
 #include "dem/contact/model_names.h"
+#include "dem/experiment/experiment_table.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
@@ -158,7 +159,7 @@ Json measured_json(const dem::Measured& measured) {
 }
 
 std::string unit_sign(const SimulatePlan& plan) {
-  const std::string_view unit = dem::entry_of(plan.experiment).unit;
+  const std::string_view unit = plan.experiment->unit;
   return unit == "deg" ? "°" : fmt::format(" {}", unit);
 }
 
@@ -166,7 +167,7 @@ Table repeats_table(const SimulatePlan& plan, const std::vector<calibrate::RunRe
   constexpr double kMicroseconds = 1e6, kMillion = 1e6;
   const bool is_mixed = source_of(runs) == "mixed";
   Table table({number_column("seed"),
-               number_column(fmt::format("value [{}]", dem::entry_of(plan.experiment).unit)),
+               number_column(fmt::format("value [{}]", plan.experiment->unit)),
                number_column("steps"),
                number_column("step [us]"),
                number_column("time [s]"),
@@ -367,7 +368,7 @@ Table belongs_to_table(const SimulatePlan& plan) {
 
 std::string simulate_json(const SimulatePlan& plan, const Repeats& repeats) {
   const std::vector<calibrate::RunResult>& runs = repeats.runs;
-  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
+  const dem::ExperimentEntry& entry = *plan.experiment;
   const auto summary = summarise(runs);
   Json json{{"experiment", entry.name}, {"unit", entry.unit}, {"value", nullptr},
             {"interval", nullptr},      {"sd", nullptr},      {"repeats", Json::array()}};
@@ -406,7 +407,7 @@ std::string simulate_json(const SimulatePlan& plan, const Repeats& repeats) {
 
 std::string simulate_table(const SimulatePlan& plan, const std::vector<calibrate::RunResult>& runs,
                            int columns) {
-  const dem::ExperimentEntry& entry = dem::entry_of(plan.experiment);
+  const dem::ExperimentEntry& entry = *plan.experiment;
   Page page(columns);
   page.add(fmt::format("{}: {}", entry.name, entry.value_name));
   page.add(repeats_table(plan, runs));

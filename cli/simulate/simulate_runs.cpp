@@ -23,6 +23,7 @@
 #include "calibrate/experiment/simulator_version.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/state/state_file.h"
 
 namespace repose::cli {
@@ -144,7 +145,7 @@ void draw_overlay(const RunFiles& files, const calibrate::HeapViewing& viewing) 
 }
 
 /// The front of a draw-down with the slopes that were measured drawn in.
-void draw_front(const RunFiles& files, const dem::DrawDownProtocol& boxes) {
+void draw_front(const RunFiles& files, const dem::BoxesFront& boxes) {
   const calibrate::DrawDownFront front =
       calibrate::draw_down_front(render::scene_of(dem::read_state(files.state)), boxes);
   const std::string title = fs::path(files.overlay).filename().string();
@@ -228,10 +229,11 @@ class Batch {
                                                    folder_->runs().string()),
                               .fix = "run the same command again."});
     }
-    const auto* boxes = std::get_if<dem::DrawDownProtocol>(&spec_.protocol);
-    if (!run.failure.empty() || (run.views.empty() && boxes == nullptr)) return files;
+    auto* const front = spec_.entry().front;
+    if (!run.failure.empty() || (run.views.empty() && front == nullptr)) return files;
     files.overlay = place + ".overlay.png";
-    boxes != nullptr ? draw_front(files, *boxes) : draw_overlay(files, spec_.viewing);
+    front != nullptr ? draw_front(files, front(spec_.protocol))
+                     : draw_overlay(files, spec_.viewing);
     return files;
   }
 

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/contact/adhesion.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 
@@ -91,7 +92,7 @@ RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
   std::string message = fmt::format(
       "all {} repeats gave the same value: they show no scatter, so there is no interval.",
       repeats);
-  if (!dem::entry_of(plan.experiment).is_stochastic) {
+  if (!plan.experiment->is_stochastic) {
     message +=
         " This experiment is deterministic: its seed has no effect. Fix: use one repeat; on the "
         "bench "
@@ -190,22 +191,21 @@ void add_definition_warning(const SimulatePlan& plan, const std::vector<calibrat
 /// Heaps of fewer grains than the study asks for, since no more fit into the tube.
 void add_grain_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                        std::vector<RunWarning>& warnings) {
-  const auto* heap = std::get_if<dem::HeapProtocol>(&plan.spec.protocol);
-  if (heap == nullptr || !heap->grains) return;
+  const dem::ExperimentEntry& entry = plan.spec.entry();
+  if (entry.grains_asked == nullptr) return;
+  const std::optional<int> asked = entry.grains_asked(plan.spec.protocol);
   const auto grains = run.readings.number("grains");
-  if (!grains || *grains >= *heap->grains) return;
+  if (!asked || !grains || *grains >= *asked) return;
   warnings.push_back(
       {"fewer_grains", run.seed,
        fmt::format("only {1:g} of {0} grains fit into the tube. Fix: use fewer grains, "
                    "or a taller or wider tube.",
-                   *heap->grains, *grains)});
+                   *asked, *grains)});
 }
 
 /// A roll that hopped, or stayed on the incline.
 void add_roll_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                       std::vector<RunWarning>& warnings) {
-  const auto* roll = std::get_if<dem::RollProtocol>(&plan.spec.protocol);
-  if (roll == nullptr) return;
   const std::string hops = calibrate::warning_of_hops(
       plan.spec.model.rolling, plan.spec.model.grain, run.readings.number("hop_mm").value_or(0));
   if (!hops.empty()) warnings.push_back({"hops", run.seed, hops});
@@ -228,7 +228,7 @@ void add_run_warnings(const SimulatePlan& plan, const calibrate::RunResult& run,
         {"not_at_rest", seed, "grains were still moving when the time limit was reached."});
   }
   const double never_rose = run.readings.number("never_rose").value_or(0);
-  auto* const grains_per_run = dem::entry_of(plan.experiment).readings_per_run;
+  auto* const grains_per_run = plan.experiment->readings_per_run;
   if (grains_per_run != nullptr && never_rose > 0) {
     warnings.push_back(
         {"never_rose", seed,
@@ -257,13 +257,12 @@ std::vector<RunWarning> warnings_of(const SimulatePlan& plan,
     add_picture_warnings(runs, warnings);
     add_definition_warning(plan, runs, warnings);
   }
-  const auto* fill = std::get_if<dem::FillProtocol>(&plan.spec.protocol);
-  if (fill != nullptr && !fill->pour_kg_s) {
-    warnings.push_back({"unknown_pouring_rate",
-                        {},
-                        "the study does not say how fast the bench pours, and this fill pours as "
-                        "fast as grains fall: slower ones are up to 6 % denser. Fix: pour_g_s in "
-                        "[experiment.fill], what was poured by the time that it took."});
+  if (plan.spec.entry().systematic != nullptr) {
+    const dem::SystematicFraction systematic = plan.spec.entry().systematic(plan.spec.protocol);
+    if (!systematic.warning_name.empty()) {
+      warnings.push_back(
+          {std::string(systematic.warning_name), {}, std::string(systematic.warning)});
+    }
   }
   for (const calibrate::RunResult& run : runs) {
     if (run.failure.empty()) add_run_warnings(plan, run, warnings);

@@ -20,7 +20,7 @@
 #include "cli/common/output.h"
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 
@@ -28,7 +28,7 @@ namespace {
 
 /// A `repose bench` worked out, but for its output.
 struct BenchPlan {
-  calibrate::BenchTest test = calibrate::BenchTest::restitution;
+  calibrate::BenchTest test = nullptr;  ///< null: unknown, as `errors` say
   std::vector<calibrate::BenchReading> readings;
   calibrate::BenchResult result;
   std::string json_file;
@@ -158,10 +158,9 @@ std::string test_called(const std::string& name) {
 BenchPlan plan_bench(const BenchArguments& arguments) {
   BenchPlan plan;
   plan.json_file = arguments.json_file;
-  const auto& tests = calibrate::kBenchTestNames;
-  if (const auto test = read_word({"bench", test_called(arguments.test), plan.errors},
-                                  {tests.begin(), tests.end()})) {
-    plan.test = static_cast<calibrate::BenchTest>(*test);
+  const std::vector<std::string> tests = calibrate::bench_test_names();
+  if (const auto test = read_word({"bench", test_called(arguments.test), plan.errors}, tests)) {
+    plan.test = calibrate::bench_test_named(tests[*test]);
     const std::vector<std::string> names = calibrate::column_names(plan.test);
     std::vector<std::string> known = names;
     for (std::string& name : calibrate::optional_column_names(plan.test)) {
@@ -246,7 +245,7 @@ ExitCode run_bench(const BenchArguments& arguments) {
   if (!plan.errors.empty()) return ExitCode::bad_input;
 
   Outputs outputs;
-  const std::string test(calibrate::kBenchTestNames.at(static_cast<std::size_t>(plan.test)));
+  const std::string test = calibrate::name_of(plan.test);
   outputs.add(plan.json_file, bench_json(test, plan.result));
   outputs.show(bench_table(test, plan.result, columns_of(stdout)));
   outputs.write();

@@ -1,14 +1,19 @@
 #include "cli/statistics/statistics_commands.h"
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "calibrate/statistics/bench/bench.h"
+#include "calibrate/statistics/bench/sheet.h"
 #include "cli/common/option_value.h"
 #include "cli/statistics/bench.h"
 #include "cli/statistics/design.h"
 #include "cli/statistics/regress.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::cli {
 
@@ -57,7 +62,7 @@ std::optional<std::pair<std::string, double>> named_number_in(const std::string&
 
 namespace {
 
-constexpr const char* kBenchNotes = R"(
+constexpr const char* kBenchTests = R"(
 READINGS are CSV tables with a row for each repeat and these columns:
   restitution     drop_mm, rebound_mm; diameter_mm and density_kg_m3, in_air
   sliding         angle_deg
@@ -67,15 +72,12 @@ READINGS are CSV tables with a row for each repeat and these columns:
   young           force_n, spot_mm, height_mm, compression_mm
   poisson         height_mm, shortening_mm, width_mm, widening_mm
   size            length_mm, width_mm, thickness_mm
-  heap            angle_deg
   drop_on_grains  drop_mm, rebound_mm; in_air
-  tilt_on_grains  angle_deg
-  roll_on_grains  angle_deg
-  fill            bulk_density_kg_m3
   pendulum        release_deg, swing_deg
-  draw_down       discharged_percent
-drop, tilt and roll stand for restitution, sliding and rolling.
-Columns after a semicolon may be left out. A grain's diameter and density take
+)";
+
+constexpr const char* kBenchNotes =
+    R"(Columns after a semicolon may be left out. A grain's diameter and density take
 out the drag of the air on a drop (in_air=0: there is none in the heights), a
 ball's diameter what it loses at the foot of the incline.
 
@@ -87,6 +89,23 @@ Examples:
   repose bench restitution --set drop_mm=500 --set rebound_mm=9.1,9.6,9.4
   repose bench rolling rolls.csv --set diameter_mm=20
 )";
+
+/// The tests of experiments, and what else an experiment is called here.
+std::string experiment_tests() {
+  std::string lines, names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    const std::string_view test = entry.sheet.test;
+    if (entry.sheet.mean) {
+      const auto columns = calibrate::column_names(calibrate::bench_test_named(test));
+      lines += fmt::format("  {:<14}  {}\n", test, fmt::join(columns, ", "));
+    }
+    if (entry.name == test) continue;
+    const bool is_first = names.empty();
+    names += fmt::format("{}{} {} {}", is_first ? "" : ", ", entry.name,
+                         is_first ? "stands for" : "for", test);
+  }
+  return fmt::format("{}{}.\n", lines, names);
+}
 
 constexpr const char* kDesignNotes = R"(
 Prints a CSV table with one row per run: the level of each factor in its own
@@ -140,7 +159,7 @@ Command bench_command() {
                   {"readings", "READINGS.csv ...", "Tables of readings", &given->files},
                   {"--set", "NAME=VALUE,...", "One or more readings; repeatable", &given->settings},
                   {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
-      .notes = kBenchNotes,
+      .notes = kBenchTests + experiment_tests() + kBenchNotes,
       .missing = "no test given. Fix: repose bench sliding READINGS.csv; see repose bench --help.",
       .run = [given] { return run_bench(*given); }};
 }

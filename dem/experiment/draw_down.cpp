@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/units.h"
+#include "dem/experiment/entry.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/filling.h"
@@ -121,6 +123,13 @@ RainPlan rain_of(const DrawDownProtocol& protocol, double reach_m) {
 }  // namespace
 
 double upper_floor_m(const DrawDownProtocol& protocol) { return protocol.drop_m + kThickness_m; }
+
+BoxesFront front_of(const DrawDownProtocol& protocol) {
+  return {.length_m = protocol.length_m,
+          .upper_floor_m = upper_floor_m(protocol),
+          .fill_m = protocol.fill_m,
+          .drop_m = protocol.drop_m};
+}
 
 ExperimentRun filled_boxes(const Model& model, const DrawDownProtocol& protocol, std::uint64_t seed,
                            const Observers& observers) {
@@ -271,6 +280,90 @@ Repeat run_draw_down(const Model& model, const DrawDownProtocol& protocol, std::
                      {"time_s", time_of(flow, kThrough)},
                      {"rate_g_s", rate_g_s},
                      {"at_rest", flow.is_at_rest ? 1 : 0}});
+}
+
+namespace {
+
+std::vector<ProtocolKey> keys_of_draw_down(Protocol& protocol) {
+  auto& draw_down = protocol.as<DrawDownProtocol>();
+  return {length_key("length_mm", "500", draw_down.length_m),
+          length_key("depth_mm", "150", draw_down.depth_m),
+          length_key("slot_mm", "120", draw_down.slot_m),
+          length_key("fill_mm", "150", draw_down.fill_m),
+          length_key("drop_mm", "250", draw_down.drop_m)};
+}
+
+/// Boxes as much larger or smaller as their slot must be for these grains.
+void adapt_draw_down(Protocol& protocol, const UsualBench& bench) {
+  constexpr double kSlotGrains = 5.2, kStep_m = .005;
+  const auto stepped = [](double size_m) { return kStep_m * std::ceil(size_m / kStep_m - 1e-9); };
+  auto& boxes = protocol.as<DrawDownProtocol>();
+  const double slot_m = stepped(kSlotGrains * kMPerMm * *std::ranges::max_element(bench.grain_mm));
+  const double factor = slot_m / boxes.slot_m;
+  boxes = {.length_m = stepped(factor * boxes.length_m),
+           .depth_m = stepped(factor * boxes.depth_m),
+           .slot_m = slot_m,
+           .fill_m = stepped(factor * boxes.fill_m),
+           .drop_m = stepped(factor * boxes.drop_m)};
+}
+
+double cost_of_draw_down_s(const Model& model, const Protocol& protocol) {
+  // Filling, flow and coming to rest.
+  constexpr double kPacked = .6, kSimulated_s = 4, kFallSpeed_m_s = 2;
+  const auto& draw_down = protocol.as<DrawDownProtocol>();
+  const double box_m3 = draw_down.length_m * draw_down.depth_m * draw_down.fill_m;
+  const double grains = kPacked * box_m3 / model.grain.volume_m3;
+  return bulk_step_s(model) * grains * kSimulated_s / bulk_timestep_s(model, kFallSpeed_m_s);
+}
+
+}  // namespace
+
+ExperimentEntry draw_down_entry() {
+  return {
+      .name = "draw_down",
+      .unit = "%",
+      .value_name = "discharged mass",
+      .description =
+          "Grains in a box run out through a slot in its floor, into another box below it. "
+          "What runs out is weighed, as a percentage of the fill.",
+      .readings = {{"upper_angle_deg", "deg", true},
+                   {"lower_angle_deg", "deg", true},
+                   {"filled_g", "g", true},
+                   {"discharged_g", "g", true},
+                   {"time_s", "s", true},
+                   {"rate_g_s", "g/s"},
+                   {"grains", ""},
+                   {"grains_out", ""},
+                   {"at_rest", ""}},
+      .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
+                       kGrainSliding, kGrainRolling},
+      .parts = {WallPart::pane},
+      .sheet = {.test = "draw_down",
+                .value = "discharged_percent",
+                .mean =
+                    MeanOfReadings{.what = "mass that runs out, by that of the fill, times 100",
+                                   .readable = between(0, 100),
+                                   .quantity = "discharged_mass",
+                                   .source = "mean of the discharges",
+                                   .validity =
+                                       "No material constant: it belongs to these boxes, filled to "
+                                       "this height."}},
+      .is_bulk = true,
+      .is_default = false,
+      .usual_model_error = .03,
+      .usual = DrawDownProtocol{},
+      .keys = keys_of_draw_down,
+      .run = run_as<DrawDownProtocol, run_draw_down>,
+      .adapt = adapt_draw_down,
+      .front = [](const Protocol& protocol) { return front_of(protocol.as<DrawDownProtocol>()); },
+      .fall_m =
+          [](const ClumpShape& /*grain*/, const Protocol& protocol) {
+            const auto& boxes = protocol.as<DrawDownProtocol>();
+            return boxes.fill_m + boxes.drop_m;
+          },
+      .possible = [](const Model& /*model*/,
+                     const Protocol& /*protocol*/) { return from_to(0, 100); },
+      .cost_s = cost_of_draw_down_s};
 }
 
 }  // namespace repose::dem

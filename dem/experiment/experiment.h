@@ -1,5 +1,6 @@
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -7,12 +8,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
 #include <vector>
 
 #include "dem/contact/material.h"
 #include "dem/engine/simulation.h"
-#include "dem/experiment/heap.h"
-#include "dem/experiment/protocol.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/vector.h"
 
@@ -31,26 +33,24 @@ struct RestMemory {
   std::vector<Vector> before;  ///< the centres then; empty before the first look
 };
 
-/// What goes on in a heap experiment, in this order.
-enum class HeapStage { rain, settle_in_tube, lift, settle };
-
-/// Where a heap experiment stands: with the state of its simulation all that it needs to go on.
-struct HeapProgress {
-  HeapStage stage = HeapStage::rain;
+/// Where a run stands: with the state of its simulation all that it needs to go on. Each experiment
+/// uses what it needs of it.
+struct RunProgress {
+  int stage = 0;  ///< of the experiment's stages, ExperimentEntry::stages
   Work work = {};
   std::int64_t steps_left = 0;     ///< of the stretch between two looks that is under way
-  std::uint64_t random_draws = 0;  ///< taken so far by the rain
+  std::uint64_t random_draws = 0;  ///< taken so far
   RestMemory rest = {};            ///< of the settling under way
   double until_s = 0;              ///< when that settling ends at the latest
-  int grains = 0;                  ///< when the lift began
+  int grains = 0;                  ///< when those that were filled in are set free
   double start_m = 0;              ///< how high they lay then
 };
 
-/// A heap experiment interrupted on its way.
-struct HeapRestart {
+/// A run interrupted on its way.
+struct Restart {
   SimulationSetup setup;
   Checkpoint checkpoint;
-  HeapProgress progress;
+  RunProgress progress;
 };
 
 /// What all experiments share: grain, materials, coefficients, and how to compute.
@@ -87,16 +87,26 @@ struct Readings : std::map<std::string, std::optional<double>> {
   double at(const std::string& name) const;
 };
 
+/// The upper edge of what lies on the ground, seen level from one side: the highest point of its
+/// grains in each upright column of the picture plane.
+struct Envelope {
+  double azimuth_rad = 0;        ///< 0 looks along +y; rises counter-clockwise, seen from above
+  double column_m = 0;           ///< from one column to the next
+  std::vector<double> height_m;  ///< of the columns above the ground, left to right; all above 0
+};
+
 /// One repeat of an experiment, as the engine gives it.
 struct Repeat {
   std::uint64_t seed = 0;
-  /// In the unit of the experiment; none of a heap: its `envelopes` are measured, not here.
+  /// In the unit of the experiment; none where `envelopes` are to be measured, which is not done
+  /// here.
   std::optional<double> value;
   Readings readings;  ///< others than the value
   std::int64_t steps = 0;
-  double timestep_s = 0;                     ///< the shortest
-  double clump_steps = 0;                    ///< grains times steps, summed
-  std::vector<HeapEnvelope> envelopes = {};  ///< of a heap, from 18 sides; else empty
+  double timestep_s = 0;   ///< the shortest
+  double clump_steps = 0;  ///< grains times steps, summed
+  /// From all sides, of an experiment whose value is an angle of them; else empty.
+  std::vector<Envelope> envelopes = {};
   /// The end of the run, to look at; shared because a simulation cannot be copied. Null: of a run
   /// that was read from a file.
   std::shared_ptr<const Simulation> state = nullptr;
@@ -111,10 +121,9 @@ struct RunRecord {
   /// the multiples of `frame_interval_s` (above 0) of its time.
   std::function<void(const Simulation&)> frame;
   double frame_interval_s = 0;
-  /// Heaps only, the others are shorter: is handed what resume_heap() needs, whenever
-  /// `is_restart_due` says so, which is asked every some million grain steps, and when the run is
-  /// interrupted.
-  std::function<void(const Simulation&, const HeapProgress&)> save_restart;
+  /// Is handed what ExperimentEntry::resume needs, whenever `is_restart_due` says so, which is
+  /// asked every some million grain steps, and when the run is interrupted.
+  std::function<void(const Simulation&, const RunProgress&)> save_restart;
   std::function<bool()> is_restart_due;
 };
 
@@ -133,35 +142,37 @@ class NoMeasurement : public std::runtime_error {
 /// What a coefficient of restitution means for the model's clump, and at which speed.
 std::string damping_definition(const Model& model);
 
-// Each runs one repeat. The same seed gives the same bytes at any number of threads. They throw
-// base::InputError for a protocol that cannot be run (every error at once), UnstableRun for a
-// run that went wrong, NoMeasurement and Interrupted as said there.
-Repeat run_drop(const Model& model, const DropProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_drop_on_grains(const Model& model, const GrainDropProtocol& protocol, std::uint64_t seed,
-                          const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_tilt_on_grains(const Model& model, const GrainTiltProtocol& protocol, std::uint64_t seed,
-                          const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_roll_on_grains(const Model& model, const GrainRollProtocol& protocol, std::uint64_t seed,
-                          const ProgressReport& report = {}, const RunRecord& record = {});
+template <typename Kind>
+concept KindOfProtocol = std::is_aggregate_v<Kind> && std::is_copy_constructible_v<Kind>;
 
-Repeat run_fill(const Model& model, const FillProtocol& protocol, std::uint64_t seed,
-                const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::uint64_t seed,
-                    const ProgressReport& report = {}, const RunRecord& record = {});
-Repeat run_draw_down(const Model& model, const DrawDownProtocol& protocol, std::uint64_t seed,
-                     const ProgressReport& report = {}, const RunRecord& record = {});
+/// How an experiment is done: the protocol of one of them, such as a DropProtocol.
+///
+/// Each experiment has a run_NAME(), which runs one repeat by its protocol. The same seed gives the
+/// same bytes at any number of threads. They throw base::InputError for a protocol that cannot be
+/// run (every error at once), UnstableRun for a run that went wrong, NoMeasurement and Interrupted
+/// as said there.
+class Protocol {
+ public:
+  Protocol() = default;  ///< of no experiment
+  /// Of the experiment that has this kind of protocol.
+  template <KindOfProtocol Kind>
+  // NOLINTNEXTLINE(google-explicit-constructor): a protocol of one experiment is a protocol
+  Protocol(Kind kind) : kind_(std::move(kind)) {}
 
-/// Goes on with a heap that was interrupted, to the same bytes as one that was not. `from` must be
-/// of the same bench, protocol and seed, which is not checked.
-Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
-                   const HeapRestart& from, const ProgressReport& report = {},
-                   const RunRecord& record = {});
+  /// The protocol itself. @throws std::bad_any_cast  it is of another kind.
+  template <typename Kind>
+  const Kind& as() const {
+    return std::any_cast<const Kind&>(kind_);
+  }
+  template <typename Kind>
+  Kind& as() {
+    return std::any_cast<Kind&>(kind_);
+  }
+
+  const std::type_info& kind() const { return kind_.type(); }
+
+ private:
+  std::any kind_;
+};
 
 }  // namespace repose::dem

@@ -103,7 +103,7 @@ std::optional<double> scatter_of(double squares, std::size_t count) {
 }
 
 ExperimentRun::ExperimentRun(Simulation simulation, const Observers& observers,
-                             std::optional<AdaptiveTimestep> pace, HeapProgress progress)
+                             std::optional<AdaptiveTimestep> pace, RunProgress progress)
     : simulation_(std::move(simulation)),
       observers_(observers),
       pace_(std::move(pace)),

@@ -55,12 +55,12 @@ class ExperimentRun {
  public:
   /// `pace`: of bulks.
   ExperimentRun(Simulation simulation, const Observers& observers,
-                std::optional<AdaptiveTimestep> pace = {}, HeapProgress progress = {});
+                std::optional<AdaptiveTimestep> pace = {}, RunProgress progress = {});
 
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
-  HeapProgress& progress() { return progress_; }
-  const HeapProgress& progress() const { return progress_; }
+  RunProgress& progress() { return progress_; }
+  const RunProgress& progress() const { return progress_; }
   const Observers& observers() const { return observers_; }
   const ClumpShape& shape() const { return simulation_.setup().kinds.front().shape; }
 
@@ -83,7 +83,7 @@ class ExperimentRun {
   Simulation simulation_;
   Observers observers_;
   std::optional<AdaptiveTimestep> pace_;
-  HeapProgress progress_;
+  RunProgress progress_;
   double fraction_ = 0;  ///< as last told
 };
 

@@ -117,7 +117,7 @@ void Rain::rain_up_to(ExperimentRun& run, double height_m) {
 }
 
 void Rain::fill(ExperimentRun& run) {
-  HeapStage& stage = run.progress().stage;
+  int& stage = run.progress().stage;
   do {
     if (stage == HeapStage::rain) {
       rain_up_to(run, plan_.rim_m + kHeaped * reach_m_);
@@ -147,15 +147,15 @@ std::vector<int> above_rim(const Simulation& simulation, double rim_m) {
   return above;
 }
 
-void begin_settling(ExperimentRun& run, HeapStage stage) {
-  HeapProgress& progress = run.progress();
+void begin_settling(ExperimentRun& run, int stage) {
+  RunProgress& progress = run.progress();
   progress.stage = stage;
   progress.rest = {};
   progress.until_s = run.simulation().time_s() + kLongestSettling_s;
 }
 
 bool settle(ExperimentRun& run, double fraction) {
-  HeapProgress& progress = run.progress();
+  RunProgress& progress = run.progress();
   RestTest rest(run.simulation().setup(), progress.rest);
   while (!rest.is_at_rest(run.simulation())) {
     if (run.simulation().time_s() > progress.until_s) return false;

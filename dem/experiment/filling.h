@@ -8,6 +8,7 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/shape/clump/clump_shape.h"
 
@@ -41,8 +42,8 @@ std::vector<int> above_rim(const Simulation& simulation, double rim_m);
 /// is taken. In the tube it is enough too: the tube holds what creeps.
 inline constexpr double kLongestSettling_s = 5;
 
-/// Grains of a heap that are to come to rest, from now on.
-void begin_settling(ExperimentRun& run, HeapStage stage);
+/// Grains of a heap that are to come to rest, from now on, in a stage of HeapStage.
+void begin_settling(ExperimentRun& run, int stage);
 
 /// Waits for it, telling `share`; false when they still moved (creep) after 5 s.
 bool settle(ExperimentRun& run, double fraction);

@@ -145,6 +145,10 @@ void find_coverage_error(std::string_view experiment, double coverage, base::Fau
                   .fix = "0.75."});
 }
 
+ProtocolKey coverage_key(double& coverage) {
+  return number_key("coverage", "0.75", from_to(kMinCoverage, kMaxCoverage), coverage);
+}
+
 SphereBed glued_bed(const ClumpShape& grain, double coverage, Random& random) {
   const double thickness = width_along(grain, lying_pose(grain), Vector::UnitZ());
   for (int k = 0; k < kMaxTries; ++k) {

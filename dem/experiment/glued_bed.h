@@ -5,6 +5,7 @@
 
 #include "base/input_error.h"
 #include "dem/experiment/model_setup.h"
+#include "dem/experiment/protocol_key.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/wall/wall.h"
 
@@ -16,6 +17,7 @@ inline constexpr double kMaxCoverage = .85;
 
 /// Notes a coverage that is not between them, by the name of the experiment.
 void find_coverage_error(std::string_view experiment, double coverage, base::Faults& errors);
+ProtocolKey coverage_key(double& coverage);
 
 /// A board (z = 0 of its frame) covered with one layer of grains that are glued on as they lie:
 /// on their flattest side, turned anyhow about the vertical, at random places.

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/units.h"
+#include "dem/experiment/entry.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/filling.h"
@@ -64,7 +66,7 @@ std::vector<double> connected_part(const std::vector<double>& height_m) {
   return {first, last};
 }
 
-HeapEnvelope envelope_at(const std::vector<ClumpSphere>& spheres, double azimuth_rad) {
+Envelope envelope_at(const std::vector<ClumpSphere>& spheres, double azimuth_rad) {
   const Vector across(std::cos(azimuth_rad), std::sin(azimuth_rad), 0);
   double from = std::numeric_limits<double>::infinity();
   double to = -from;
@@ -83,9 +85,9 @@ HeapEnvelope envelope_at(const std::vector<ClumpSphere>& spheres, double azimuth
 
 }  // namespace
 
-std::vector<HeapEnvelope> heap_envelopes(const std::vector<ClumpSphere>& spheres, int views) {
+std::vector<Envelope> heap_envelopes(const std::vector<ClumpSphere>& spheres, int views) {
   check(spheres, views);
-  std::vector<HeapEnvelope> envelopes;
+  std::vector<Envelope> envelopes;
   envelopes.reserve(static_cast<std::size_t>(views));
   for (int view = 0; view < views; ++view) {
     envelopes.push_back(envelope_at(spheres, std::numbers::pi * view / views));
@@ -93,9 +95,9 @@ std::vector<HeapEnvelope> heap_envelopes(const std::vector<ClumpSphere>& spheres
   return envelopes;
 }
 
-double height_m(const std::vector<HeapEnvelope>& envelopes) {
+double height_m(const std::vector<Envelope>& envelopes) {
   double highest = 0;
-  for (const HeapEnvelope& envelope : envelopes) {
+  for (const Envelope& envelope : envelopes) {
     for (const double height : envelope.height_m) highest = std::max(highest, height);
   }
   return highest;
@@ -210,7 +212,7 @@ void begin_lift(ExperimentRun& run, const HeapProtocol& protocol) {
   Simulation& simulation = run.simulation();
   simulation.set_motions(kHeapTube, {{.velocity = protocol.lift_speed_m_s * Vector::UnitZ(),
                                       .start_s = simulation.time_s()}});
-  HeapProgress& progress = run.progress();
+  RunProgress& progress = run.progress();
   progress.stage = HeapStage::lift;
   progress.grains = count_present(simulation);
   progress.start_m = highest_point_m(run);
@@ -260,7 +262,7 @@ Repeat finish_heap(ExperimentRun run, const Model& model, std::uint64_t seed) {
                     "friction.",
                     grains));
   }
-  std::vector<HeapEnvelope> envelopes = heap_envelopes(placed_spheres(run.simulation()), kViews);
+  std::vector<Envelope> envelopes = heap_envelopes(placed_spheres(run.simulation()), kViews);
   const double height = height_m(envelopes);
   const bool is_layer = height < kLowestHeap * diameter_m(model.grain);
   Repeat repeat = run.finish(std::nullopt, seed,
@@ -285,7 +287,7 @@ Repeat run_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t 
 }
 
 Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
-                   const HeapRestart& from, const ProgressReport& report, const RunRecord& record) {
+                   const Restart& from, const ProgressReport& report, const RunRecord& record) {
   check(model, protocol);
   SimulationSetup setup = from.setup;
   setup.threads = model.threads;
@@ -295,6 +297,115 @@ Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64
   const bool is_full = from.progress.stage > HeapStage::settle_in_tube;
   return finish_heap(is_full ? std::move(run) : filled(std::move(run), model, protocol, seed),
                      model, seed);
+}
+
+namespace {
+
+std::vector<ProtocolKey> keys_of_heap(Protocol& protocol) {
+  auto& heap = protocol.as<HeapProtocol>();
+  ProtocolKey distance =
+      length_key("camera_distance_mm", "1500", heap.camera_distance_m, "far away");
+  ProtocolKey height = length_key("camera_height_mm", "40", heap.camera_height_m);
+  height.needs = "camera_distance_mm";
+  distance.is_of_pictures = height.is_of_pictures = true;
+  return {length_key("tube_diameter_mm", "100", heap.tube_diameter_m),
+          length_key("tube_height_mm", "400", heap.tube_height_m),
+          length_key("tube_thickness_mm", "2", heap.tube_thickness_m),
+          length_key("lift_speed_mm_s", "30", heap.lift_speed_m_s),
+          length_key("plate_mm", "400", heap.plate_m),
+          length_key("plate_thickness_mm", "2", heap.plate_thickness_m),
+          count_key("grains", "455", kMaxGrains, heap.grains, "as many as fit"),
+          distance,
+          height};
+}
+
+void adapt_heap(Protocol& protocol, const UsualBench& bench) {
+  constexpr double kPlateWidths = 6;  // how far a low heap reaches, and more
+  auto& heap = protocol.as<HeapProtocol>();
+  heap.tube_diameter_m = bench.tube_diameter_mm * kMPerMm;
+  heap.tube_height_m = bench.tube_height_mm * kMPerMm;
+  heap.plate_m = kPlateWidths * heap.tube_diameter_m;
+}
+
+std::optional<LevelCamera> camera_of_heap(const Protocol& protocol) {
+  const auto& heap = protocol.as<HeapProtocol>();
+  if (!heap.camera_distance_m) return std::nullopt;
+  return LevelCamera{.distance_m = *heap.camera_distance_m, .height_m = heap.camera_height_m};
+}
+
+double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {
+  constexpr double kPacked = .6;
+  const double radius = heap.tube_diameter_m / 2;
+  const double tube_m3 = std::numbers::pi * radius * radius * heap.tube_height_m;
+  const double full = kPacked * tube_m3 / grain.volume_m3;
+  return heap.grains ? std::min<double>(*heap.grains, full) : full;
+}
+
+double cost_of_heap_s(const Model& model, const Protocol& protocol) {
+  // Once the tube is a diameter up, what is left in it falls out.
+  constexpr double kFillAndSettle_s = 1.5, kSpeed_m_s = .5;
+  const auto& heap = protocol.as<HeapProtocol>();
+  const double simulated_s = heap.tube_diameter_m / heap.lift_speed_m_s + kFillAndSettle_s;
+  return bulk_step_s(model) * grains_in(heap, model.grain) * simulated_s /
+         bulk_timestep_s(model, kSpeed_m_s);
+}
+
+}  // namespace
+
+ExperimentEntry heap_entry() {
+  return {
+      .name = "heap",
+      .unit = "deg",
+      .value_name = "angle of repose",
+      .description =
+          "A tube full of grains stands on the plate and is lifted slowly. A heap stays.",
+      .readings = {{"base_radius_mm", "mm", true},
+                   {"height_mm", "mm", true},
+                   {"grains_off_plate", "", true},
+                   {"grains", ""},
+                   {"grains_on_plate", ""},
+                   {"between_views_deg", "deg"},
+                   {"angle_xz_deg", "deg"},
+                   {"inner_window_deg", "deg"},
+                   {"no_heap", ""},
+                   {"at_rest", ""},
+                   {"time_s", "s"}},
+      .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
+                       kGrainSliding, kGrainRolling},
+      .parts = {WallPart::tube},
+      .sheet = {.test = "heap",
+                .value = "angle_deg",
+                .mean =
+                    MeanOfReadings{
+                        .what = "angle of repose",
+                        .readable = from_to_below(0, 90),
+                        .quantity = "angle_of_repose",
+                        .source = "mean of the heaps",
+                        .validity = "No material constant: it belongs to heaps of this size, made "
+                                    "on this base in this way."}},
+      .is_bulk = true,
+      .is_pictured = true,
+      .needs_tube = true,
+      .filmed = FilmedMotion::rest,
+      .grains_asked = [](const Protocol& protocol) { return protocol.as<HeapProtocol>().grains; },
+      .usual_model_error = .03,
+      .usual = HeapProtocol{.grains = {}, .allow_partial_fill = true},
+      .keys = keys_of_heap,
+      .run = run_as<HeapProtocol, run_heap>,
+      .resume =
+          [](const Model& model, const Protocol& protocol, std::uint64_t seed, const Restart& from,
+             const ProgressReport& report, const RunRecord& record) {
+            return resume_heap(model, protocol.as<HeapProtocol>(), seed, from, report, record);
+          },
+      .stages = {"rain", "settle_in_tube", "lift", "settle"},
+      .adapt = adapt_heap,
+      .camera = camera_of_heap,
+      // Grains rain into the tube.
+      .fall_m = [](const ClumpShape& grain,
+                   const Protocol& /*protocol*/) { return 8 * grain.reach_m(); },
+      .possible = [](const Model& /*model*/,
+                     const Protocol& /*protocol*/) { return from_to(-90, 90); },
+      .cost_s = cost_of_heap_s};
 }
 
 }  // namespace repose::dem

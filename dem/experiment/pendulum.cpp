@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/entry.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/model_setup.h"
@@ -135,6 +136,51 @@ Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::u
                     {{"rise_mm", 1e3 * rise_m},
                      {"height_ratio", rise_m / height_m},
                      {"sd_deg", scatter_of(squares, swings_deg.size())}});
+}
+
+namespace {
+
+std::vector<ProtocolKey> keys_of_pendulum(Protocol& protocol) {
+  auto& pendulum = protocol.as<PendulumProtocol>();
+  return {length_key("string_mm", "300", pendulum.string_m),
+          number_key("release_deg", "30", above(0, 90), pendulum.release_deg),
+          count_key("pairs", "10", kMaxGrains / 2, pendulum.pairs)};
+}
+
+double cost_of_pendulum_s(const Model& /*model*/, const Protocol& protocol) {
+  return kImpact_s * protocol.as<PendulumProtocol>().pairs;
+}
+
+}  // namespace
+
+ExperimentEntry pendulum_entry() {
+  return {.name = "pendulum",
+          .unit = "deg",
+          .value_name = "swing of the struck grain",
+          .description =
+              "Two grains hang on strings, side by side; one is drawn aside, let go, and strikes "
+              "the other, which swings up.",
+          .readings = {{"rise_mm", "mm"}, {"height_ratio", ""}, {"sd_deg", "deg"}},
+          .coefficients = {kGrainRestitution, kGrainSliding, kGrainRolling},
+          .tells = kGrainRestitution,
+          .sheet = {.test = "pendulum",
+                    .value = "swing_deg",
+                    .protocol = {{"release_deg", "release_deg"}}},
+          .is_default = false,
+          .has_plate = false,
+          .readings_per_run =
+              [](const Protocol& protocol) { return protocol.as<PendulumProtocol>().pairs; },
+          .softening_effect = "swings less far than one with the real stiffness",
+          .usual = PendulumProtocol{},
+          .keys = keys_of_pendulum,
+          .run = run_as<PendulumProtocol, run_pendulum>,
+          .fall_m =
+              [](const ClumpShape& /*grain*/, const Protocol& protocol) {
+                return release_height_m(protocol.as<PendulumProtocol>());
+              },
+          .possible = [](const Model& /*model*/,
+                         const Protocol& /*protocol*/) { return from_to(0, 90); },
+          .cost_s = cost_of_pendulum_s};
 }
 
 }  // namespace repose::dem

@@ -1,10 +1,30 @@
 #pragma once
 
-#include "dem/experiment/model_setup.h"
-#include "dem/experiment/protocol.h"
+#include <cstdint>
+
+#include "dem/experiment/experiment.h"
 #include "dem/shape/clump/clump_shape.h"
+#include "dem/vector.h"
 
 namespace repose::dem {
+
+class Random;
+
+/// Two equal grains on strings, side by side: one is drawn aside, let go, and strikes the other.
+///
+/// The strings are as long as from the hinge to the grain's middle. Value: the angle to which the
+/// struck grain swings, degrees, mean of the pairs, all of them grains in random poses that meet
+/// with their middles at the same height. Between equal balls of restitution e its height is
+/// ((1 + e) / 2)^2 of the other's. Readings: "rise_mm" (that height), "height_ratio" and "sd_deg"
+/// (scatter of the value between pairs).
+struct PendulumProtocol {
+  double string_m = .3;
+  double release_deg = 30;
+  int pairs = 10;
+};
+
+Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::uint64_t seed,
+                    const ProgressReport& report = {}, const RunRecord& record = {});
 
 /// Two grains whose strings hang upright: one swings along +x, and is about to touch the other.
 struct HangingPair {

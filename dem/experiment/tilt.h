@@ -1,10 +1,39 @@
 #pragma once
 
-#include "base/units.h"
+#include <cstdint>
+
 #include "dem/engine/simulation.h"
+#include "dem/experiment/experiment.h"
 #include "dem/shape/clump/clump_shape.h"
 
 namespace repose::dem {
+
+/// Grains bonded side by side, on a plate that tilts until they slide.
+///
+/// The grains touch, long axes parallel and level, shortest axes upright. The plate turns about
+/// the direction of the long axes: down the slope lies the line from grain to grain, the one way in
+/// which they can neither roll nor rock. A single grain rolls.
+///
+/// Value: the plate's angle at the onset of sliding, degrees. Slip grows as the cube of the time
+/// since the onset; the line through its cube root is followed back to no slip. Readings:
+/// "half_mm_slip_deg" (the plate's angle once the body has slipped half a millimetre; what others
+/// report) and "begin_deg" (where the turning began). Throws NoMeasurement for a body that tips or
+/// rolls, creeps from where the turning began, or holds up to 89 degrees. Restitution does not
+/// matter: plates of more than .5 are taken to have .5, or bodies would rattle. There is no chance
+/// in it: the seed changes nothing. Nor would chance be of use: as long as the body slides, its
+/// angle is that of friction whatever its pose, and with the row across the slope ellipsoids roll
+/// over their ends once tan(angle) = (a^2 - b^2) / 2ab (half-axes a > b: 14 degrees for a
+/// hazelnut), before they slide. The scatter of a bench is that of its surfaces.
+struct TiltProtocol {
+  int bonded = 2;
+  double rate_deg_s = 2;
+  /// At least. The plate begins later, just short of where the body slides or tips, since a body
+  /// that does not move has no history: Tilt.DoesNotDependOnWhereItBegins.
+  double start_deg = 0;
+};
+
+Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t seed,
+                const ProgressReport& report = {}, const RunRecord& record = {});
 
 /// Where a plate stops to turn.
 inline constexpr double kSteepest_deg = 89;

@@ -1,3 +1,5 @@
+#include "dem/experiment/tilt_on_grains.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/entry.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_run.h"
 #include "dem/experiment/glued_bed.h"
@@ -203,6 +206,117 @@ Repeat run_roll_on_grains(const Model& model, const GrainRollProtocol& protocol,
                         .coverage = protocol.coverage};
   check(model, tilting);
   return TiltRun(model, tilting, seed, {report, record}).result(seed);
+}
+
+namespace {
+
+constexpr const char* kNoConstant =
+    "No material constant: glued grains interlock. Calibrate a study with these readings.";
+
+std::vector<ProtocolKey> keys_of_tilt_on_grains(Protocol& protocol) {
+  auto& tilt = protocol.as<GrainTiltProtocol>();
+  return {count_key("bonded", "3", kMaxBonded, tilt.bonded),
+          number_key("rate_deg_s", "5", above(0, 10), tilt.rate_deg_s),
+          count_key("places", "10", kMaxGrains, tilt.places), coverage_key(tilt.coverage)};
+}
+
+std::vector<ProtocolKey> keys_of_roll_on_grains(Protocol& protocol) {
+  auto& roll = protocol.as<GrainRollProtocol>();
+  return {number_key("rate_deg_s", "5", above(0, 10), roll.rate_deg_s),
+          count_key("places", "10", kMaxGrains, roll.places), coverage_key(roll.coverage)};
+}
+
+Range possible_on_grains(const Model& /*model*/, const Protocol& /*protocol*/) {
+  return from_to(0, 90);
+}
+
+/// Grains roll out of one hollow and into the next.
+double fall_on_grains_m(const ClumpShape& grain, const Protocol& /*protocol*/) {
+  return diameter_m(grain);
+}
+
+/// Of bodies that lie still until the plate is at some 45 degrees.
+double cost_on_grains_s(const Model& model, double rate_deg_s, int bonded, int places) {
+  constexpr double kSpeed_m_s = .3, kSettling_s = 1, kLeaves_deg = 45;
+  return step_on_grains_s(model, bonded) * places * (kSettling_s + kLeaves_deg / rate_deg_s) /
+         rolling_timestep_s(model, kSpeed_m_s);
+}
+
+}  // namespace
+
+/// Sliding friction from .2 to .6 moved the angle by some 18 degrees, rolling friction from .02 to
+/// .2 by 0 to 3, restitution by less than it scatters.
+ExperimentEntry tilt_on_grains_entry() {
+  return {.name = "tilt_on_grains",
+          .unit = "deg",
+          .value_name = "angle of sliding on grains",
+          .description =
+              "Three or more grains, glued side by side so that none can roll, lie on a plate that "
+              "is covered with glued grains of their kind, while it is tilted slowly, until they "
+              "slide by a grain's diameter.",
+          .readings = {{"first_shift_deg", "deg"}, {"sd_deg", "deg"}},
+          .coefficients = {kGrainSliding, kGrainRolling},
+          .tells = kGrainSliding,
+          .sheet = {.test = "tilt_on_grains",
+                    .value = "angle_deg",
+                    .mean = MeanOfReadings{.what = "tilt at which bonded grains slide off",
+                                           .readable = between(0, 90),
+                                           .quantity = "angle_of_sliding",
+                                           .validity = kNoConstant}},
+          .is_default = false,
+          .readings_per_run =
+              [](const Protocol& protocol) { return protocol.as<GrainTiltProtocol>().places; },
+          .usual_scatter = .2,
+          .usual_model_error = .03,
+          .usual = GrainTiltProtocol{},
+          .keys = keys_of_tilt_on_grains,
+          .run = run_as<GrainTiltProtocol, run_tilt_on_grains>,
+          .body =
+              [](const ClumpShape& grain, const Protocol& protocol) {
+                return bonded_shape(grain, protocol.as<GrainTiltProtocol>().bonded);
+              },
+          .fall_m = fall_on_grains_m,
+          .possible = possible_on_grains,
+          .cost_s =
+              [](const Model& model, const Protocol& protocol) {
+                const auto& tilt = protocol.as<GrainTiltProtocol>();
+                return cost_on_grains_s(model, tilt.rate_deg_s, tilt.bonded, tilt.places);
+              }};
+}
+
+/// Rolling friction from .02 to .2 moved the angle by some 12 degrees, sliding friction and
+/// restitution by less than it scatters.
+ExperimentEntry roll_on_grains_entry() {
+  return {.name = "roll_on_grains",
+          .unit = "deg",
+          .value_name = "angle of rolling on grains",
+          .description =
+              "A single grain lies on a plate that is covered with glued grains of its kind, while "
+              "it is tilted slowly, until the grain rolls by its diameter.",
+          .readings = {{"first_shift_deg", "deg"}, {"sd_deg", "deg"}},
+          .coefficients = {kGrainSliding, kGrainRolling},
+          .tells = kGrainRolling,
+          .sheet = {.test = "roll_on_grains",
+                    .value = "angle_deg",
+                    .mean = MeanOfReadings{.what = "tilt at which a single grain rolls off",
+                                           .readable = between(0, 90),
+                                           .quantity = "angle_of_rolling",
+                                           .validity = kNoConstant}},
+          .is_default = false,
+          .readings_per_run =
+              [](const Protocol& protocol) { return protocol.as<GrainRollProtocol>().places; },
+          .usual_scatter = .25,
+          .usual_model_error = .03,
+          .usual = GrainRollProtocol{},
+          .keys = keys_of_roll_on_grains,
+          .run = run_as<GrainRollProtocol, run_roll_on_grains>,
+          .fall_m = fall_on_grains_m,
+          .possible = possible_on_grains,
+          .cost_s =
+              [](const Model& model, const Protocol& protocol) {
+                const auto& roll = protocol.as<GrainRollProtocol>();
+                return cost_on_grains_s(model, roll.rate_deg_s, 1, roll.places);
+              }};
 }
 
 }  // namespace repose::dem

@@ -10,8 +10,8 @@
 
 #include "base/input_error.h"
 #include "base/units.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/shape/clump/clump_shape.h"
-#include "dem/study/experiment_table.h"
 #include "dem/study/read_particle.h"
 
 namespace repose::dem {
@@ -76,7 +76,7 @@ std::vector<Numbers> numbers_of(Study& study) {
   }
   for (auto& [experiment, described] : study.experiments) {
     all.push_back({.section = "experiment." + name_of(experiment),
-                   .keys = entry_of(experiment).keys(described.protocol)});
+                   .keys = experiment->keys(described.protocol)});
   }
   return all;
 }
@@ -277,7 +277,7 @@ void change_input(Study& study, const std::string& name, double change) {
 }
 
 bool has_effect(std::string_view input, Experiment experiment) {
-  const ExperimentEntry& entry = entry_of(experiment);
+  const ExperimentEntry& entry = *experiment;
   if (input == "particle.size_sd_percent") return entry.is_bulk;
   constexpr std::string_view kExperiment = "experiment.", kWall = "wall.";
   const std::string_view section = input.substr(0, input.rfind('.'));

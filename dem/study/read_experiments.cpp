@@ -14,15 +14,22 @@
 #include "base/angle_definition.h"
 #include "base/file_set.h"
 #include "base/text.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::dem {
 namespace {
 
-constexpr const char* kMeasured =
-    "measured = { values = [9.1, 9.6] }, { mean = 9.42, sd = 0.5, n = 10 }, { readings = "
-    "\"drops.csv\" } or, for a heap, { pictures = [\"photos\"] }, or, for a drop, roll, tilt or "
-    "heap, { videos = [\"films/*.mp4\"] }";
+bool is_pictured(const ExperimentEntry& entry) { return entry.is_pictured; }
+bool is_filmed(const ExperimentEntry& entry) { return entry.filmed != FilmedMotion::none; }
+bool is_in_air(const ExperimentEntry& entry) { return entry.is_in_air; }
+
+std::string measured_example() {
+  return fmt::format(
+      "measured = {{ values = [9.1, 9.6] }}, {{ mean = 9.42, sd = 0.5, n = 10 }}, {{ readings = "
+      "\"drops.csv\" }} or, for a {}, {{ pictures = [\"photos\"] }}, or, for a {}, {{ videos = "
+      "[\"films/*.mp4\"] }}",
+      experiment_names({.is_meant = is_pictured}), experiment_names({.is_meant = is_filmed}));
+}
 
 /// One way of saying it, and only one.
 void check_ways(Section& measured) {
@@ -34,7 +41,7 @@ void check_ways(Section& measured) {
                         fmt::format("{} has {}", measured.path(),
                                     ways == 0 ? "no values" : "more than one kind of values"),
                         "values, or their mean, or a sheet of readings, or pictures, or videos",
-                        std::string("for example ") + kMeasured);
+                        "for example " + measured_example());
 }
 
 /// How far bench and simulation may be apart and still agree.
@@ -116,21 +123,13 @@ void read_pictures(Section& measured, const NamedFiles& files, Measured& result)
   }
 }
 
-/// "drop, roll": experiments for which `is` holds.
-std::string names_of_those(bool ExperimentEntry::*is) {
-  std::string names;
-  for (const ExperimentEntry& entry : all_experiments()) {
-    if (entry.*is) names += (names.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  return names;
-}
-
 /// What cannot be photographed or filmed.
-void check_medium(Section& measured, const std::string& key, bool ExperimentEntry::*is,
+void check_medium(Section& measured, const std::string& key, bool (*is)(const ExperimentEntry&),
                   const ExperimentEntry& entry, const std::string& how) {
-  if (entry.*is || !measured.has(key)) return;
+  if (is(entry) || !measured.has(key)) return;
   measured.wrong(*measured.value(key),
-                 fmt::format("{}: {}, and not {}", how, names_of_those(is), entry.name),
+                 fmt::format("{}: {}, and not {}", how,
+                             experiment_names({.is_meant = is, .last = ", "}), entry.name),
                  "give values, their mean or a sheet of readings");
 }
 
@@ -156,17 +155,15 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
     result.sheet = file_named(measured, *measured.value("readings"), *name, files);
   }
   read_pictures(measured, files, result);
-  check_medium(measured, "pictures", &ExperimentEntry::is_pictured, entry,
-               "only this is measured in pictures");
+  check_medium(measured, "pictures", is_pictured, entry, "only this is measured in pictures");
   result.videos = files_named(measured, "videos", "videos = [\"drops/*.mp4\"]", files);
-  check_medium(measured, "videos", &ExperimentEntry::is_filmed, entry,
-               "only this is read off films");
+  check_medium(measured, "videos", is_filmed, entry, "only this is read off films");
   if (const auto in_air = measured.truth("in_air", "in_air = false")) {
     result.in_air = *in_air;
     if (!entry.is_in_air) {
       measured.wrong(*measured.value("in_air"),
                      fmt::format("only of {}, whose readings the drag of the air lowers",
-                                 names_of_those(&ExperimentEntry::is_in_air)),
+                                 experiment_names({.is_meant = is_in_air, .last = ", "})),
                      "take this line out");
     }
   }
@@ -267,7 +264,7 @@ void read_experiment(Section section, const ExperimentEntry& entry, const NamedF
       section.number("model_error_percent", from_to(0, kPercent), "model_error_percent = 3");
   if (model_error) described.model_error = *model_error / kPercent;
   section.reject_unknown_keys();
-  study.experiments.emplace(entry.experiment, std::move(described));
+  study.experiments.emplace(&entry, std::move(described));
 }
 
 }  // namespace

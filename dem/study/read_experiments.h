@@ -6,7 +6,8 @@
 
 namespace repose::dem {
 
-/// [experiment.drop] ... [experiment.heap]: how each is done and what it gave on the bench.
+/// The sections of all experiments, [experiment.drop] and so on: how each is done and what it gave
+/// on the bench.
 void read_experiments(Section experiments, const NamedFiles& files, Study& study);
 
 }  // namespace repose::dem

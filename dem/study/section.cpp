@@ -37,22 +37,6 @@ std::string guess(const std::string& typed, const std::vector<std::string>& know
 
 }  // namespace
 
-bool Range::contains(double value) const {
-  return std::isfinite(value) && (excludes_from ? value > from : value >= from) &&
-         (excludes_to ? value < to : value <= to);
-}
-
-std::string Range::rule() const {
-  std::string text = "a number";
-  if (std::isfinite(from))
-    text += fmt::format(" {} {:g}", excludes_from ? "above" : "of at least", from);
-  if (std::isfinite(to)) {
-    text += fmt::format("{} {} {:g}", std::isfinite(from) ? " and" : "",
-                        excludes_to ? "below" : "at most", to);
-  }
-  return text;
-}
-
 Section::Section(const ConfigValue* table, std::string path, const Place& otherwise,
                  StudyErrors& errors)
     : table_(table),

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "dem/experiment/protocol_key.h"
 #include "dem/study/config.h"
-#include "dem/study/range.h"
 
 namespace repose::dem {
 

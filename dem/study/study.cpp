@@ -12,7 +12,7 @@
 #include "base/atomic_file.h"
 #include "base/fingerprint.h"
 #include "base/text.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/held_inputs.h"
 #include "dem/study/read_contact.h"
 #include "dem/study/read_experiments.h"
@@ -120,9 +120,12 @@ void read_sections(const ConfigValue& config, Section root, const NamedFiles& fi
                               "[contact.particle_wall] and [contact.particle_particle], each with "
                               "restitution, sliding_friction and rolling_friction"),
                study);
+  const std::string sections =
+      experiment_names({.is_meant = [](const ExperimentEntry& entry) { return entry.is_default; },
+                        .before = "[experiment.",
+                        .after = "]"});
   Section experiments = needed_section(root, "experiment", "at least one experiment is required",
-                                       "[experiment.drop], [experiment.tilt], [experiment.roll] or "
-                                       "[experiment.heap]; all their keys have usual values");
+                                       sections + "; all their keys have usual values");
   read_experiments(experiments, files, study);
   read_simulation(root.section("simulation"), study);
   read_uncertainty(root.section("uncertainty"), study);
@@ -204,7 +207,7 @@ std::vector<std::string> open_coefficients(const Study& study, Experiment experi
   if (has_grain_contacts(experiment)) {
     add_open(study.particle_particle, "particle_particle", names);
   }
-  for (const WallPart part : entry_of(experiment).parts) {
+  for (const WallPart part : experiment->parts) {
     const auto found = study.particle_parts.find(part);
     if (found != study.particle_parts.end()) {
       add_open(found->second, "particle_" + name_of(part), names);
@@ -219,7 +222,7 @@ Model model_for(const Study& study, Experiment experiment) {
   if (described != study.experiments.end()) {
     model.stiffness_factor = described->second.stiffness_factor;
   }
-  const ExperimentEntry& entry = entry_of(experiment);
+  const ExperimentEntry& entry = *experiment;
   if (!entry.is_bulk) model.size_cv = 0;
   std::erase_if(model.parts, [&entry](const auto& one) {
     return std::ranges::find(entry.parts, one.first) == entry.parts.end();

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
 
 namespace repose::dem {
@@ -141,13 +141,7 @@ struct Study {
   /// @throws std::out_of_range  the study does not describe it.
   template <typename Kind>
   const Kind& protocol() const {
-    return std::get<Kind>(experiments.at(experiment_of<Kind>()).protocol);
-  }
-
-  /// The experiment that has this kind of protocol.
-  template <typename Kind>
-  static Experiment experiment_of() {
-    return static_cast<Experiment>(Protocol(std::in_place_type<Kind>).index());
+    return experiments.at(experiment_of<Kind>()).protocol.template as<Kind>();
   }
 };
 

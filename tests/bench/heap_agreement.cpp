@@ -17,6 +17,7 @@
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/export/export.h"
 #include "calibrate/statistics/summary.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/experiment/heap.h"
 #include "dem/study/grain_source.h"
 #include "tests/bench/benches.h"
@@ -33,7 +34,7 @@ struct Heap {
   double base_radius_mm = 0;
 };
 
-Heap heap_of(const std::vector<dem::HeapEnvelope>& envelopes) {
+Heap heap_of(const std::vector<dem::Envelope>& envelopes) {
   constexpr double kMm = 1e3;
   const calibrate::PositionAngle angle = calibrate::position_angle(envelopes);
   return {angle.angle_deg.value(), kMm * dem::height_m(envelopes),
@@ -130,7 +131,7 @@ void compare_heaps(const HeapAgreement& wanted) {
   const dem::ClumpShape grain = dem::build_grain(study.grain).shape;
   const calibrate::StudyExport decks =
       calibrate::export_study(study, grain, {}, {.target = target, .takes_approximate = true});
-  dem::Model model = dem::model_for(study, dem::Experiment::heap);
+  dem::Model model = dem::model_for(study, dem::experiment_of<dem::HeapProtocol>());
   model.grain = grain;
   std::vector<double> ours, theirs;
   fmt::print("{:<12}{:>9}{:>11}{:>13}\n", "heap", "angle/deg", "height/mm", "base r/mm");

@@ -10,6 +10,8 @@
 #include "calibrate/export/export.h"
 #include "calibrate/study/study_simulator.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
 #include "render/scene/scene.h"
@@ -85,7 +87,7 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
   all.insert(all.end(), settings.begin(), settings.end());
   const dem::Study study =
       dem::read_study(testing::source_folder() / "samples/hazelnut/study.toml", all);
-  dem::Model model = dem::model_for(study, dem::Experiment::heap);
+  dem::Model model = dem::model_for(study, dem::experiment_of<dem::HeapProtocol>());
   model.grain = dem::build_grain(study.grain).shape;
   model.threads = 1;
   const auto protocol = study.protocol<dem::HeapProtocol>();

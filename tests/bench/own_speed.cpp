@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "dem/experiment/drop.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 #include "dem/study/grain_source.h"
 #include "dem/study/study.h"
 #include "tests/bench/clock.h"
@@ -54,11 +58,14 @@ std::vector<double> single_grain_times(const std::string& experiment, int rounds
     const auto seed = static_cast<std::uint64_t>(round) + 1;
     const double start = cpu_s();
     if (experiment == "drop") {
-      dem::run_drop(model(dem::Experiment::drop), study.protocol<dem::DropProtocol>(), seed);
+      dem::run_drop(model(dem::experiment_of<dem::DropProtocol>()),
+                    study.protocol<dem::DropProtocol>(), seed);
     } else if (experiment == "tilt") {
-      dem::run_tilt(model(dem::Experiment::tilt), study.protocol<dem::TiltProtocol>(), seed);
+      dem::run_tilt(model(dem::experiment_of<dem::TiltProtocol>()),
+                    study.protocol<dem::TiltProtocol>(), seed);
     } else {
-      dem::run_roll(model(dem::Experiment::roll), study.protocol<dem::RollProtocol>(), seed);
+      dem::run_roll(model(dem::experiment_of<dem::RollProtocol>()),
+                    study.protocol<dem::RollProtocol>(), seed);
     }
     times.push_back(cpu_s() - start);
   }

@@ -14,7 +14,10 @@
 #include <tbb/parallel_for.h>
 
 #include "base/units.h"
+#include "dem/experiment/drop.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 #include "render/renderer.h"
 #include "render/run/filmed_run.h"
 #include "tests/support/temporary_folder.h"

@@ -17,6 +17,7 @@
 #include "calibrate/study/executor.h"
 #include "calibrate/study/job_runner.h"
 #include "calibrate/study/study_run.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
 #include "tests/bench/recovery_tally.h"
 
@@ -49,7 +50,7 @@ std::vector<std::string> bench_settings(const SimulatedRecovery& plan, const dem
     if (described.stiffness_factor != 1) {
       settings.push_back(fmt::format("experiment.{}.stiffness_factor=1", name));
     }
-    if (dem::entry_of(experiment).readings_per_run == nullptr) continue;
+    if (experiment->readings_per_run == nullptr) continue;
     const char* grains = name == "pendulum"         ? "pairs"
                          : name.starts_with("drop") ? "grains"
                                                     : "places";
@@ -115,7 +116,7 @@ class Material {
 
   calibrate::StudyOutcome calibrated(const calibrate::Budget& budget) {
     for (auto& [experiment, described] : study_.experiments) {
-      described.measured.values = readings(dem::entry_of(experiment));
+      described.measured.values = readings(*experiment);
     }
     const calibrate::Problem problem = calibrate::problem_of(study_, grain_, budget).problem;
     calibrate::ThreadExecutor executor(simulator_, cores());

@@ -11,9 +11,17 @@
 #include "base/random.h"
 #include "dem/contact/model_names.h"
 #include "dem/engine/unstable_run.h"
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/pendulum.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
+#include "dem/experiment/tilt_on_grains.h"
 #include "dem/shape/clump/fill.h"
 #include "dem/shape/scan/calliper.h"
-#include "dem/study/experiment_table.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/clock.h"
 
@@ -99,42 +107,48 @@ dem::DrawDownProtocol draw_down(double reach_m, base::Random& random) {
 dem::Protocol protocol(dem::Experiment experiment, const dem::Model& model, base::Random& random) {
   constexpr double kSparse = .65, kDense = .85;
   const double reach_m = model.grain.reach_m();
-  switch (experiment) {
-    case dem::Experiment::drop:
-      return dem::DropProtocol{.height_m = spread(random, .01, .5), .grains = whole(random, 1, 2)};
-    case dem::Experiment::tilt:
-      return dem::TiltProtocol{.bonded = whole(random, 2, 4), .rate_deg_s = spread(random, 4, 10)};
-    case dem::Experiment::roll:
-      return dem::RollProtocol{.incline_deg = random.between(5, 45),
-                               .release_m = reach_m * random.between(3, 10),
-                               .release_turn_deg = random.between(0, 90)};
-    case dem::Experiment::drop_on_grains:
-      return dem::GrainDropProtocol{.height_m = spread(random, .01, .5),
-                                    .grains = whole(random, 1, 3),
-                                    .coverage = random.between(kSparse, kDense)};
-    case dem::Experiment::tilt_on_grains:
-      return dem::GrainTiltProtocol{.bonded = whole(random, 1, 4),
-                                    .rate_deg_s = spread(random, 4, 10),
-                                    .places = whole(random, 1, 2),
-                                    .coverage = random.between(kSparse, kDense)};
-    case dem::Experiment::roll_on_grains:
-      return dem::GrainRollProtocol{.rate_deg_s = spread(random, 4, 10),
-                                    .places = whole(random, 1, 2),
-                                    .coverage = random.between(kSparse, kDense)};
-    case dem::Experiment::fill:
-      return dem::FillProtocol{.tube_diameter_m = reach_m * random.between(8, 12),
-                               .tube_height_m = reach_m * random.between(8, 12),
-                               .pour_m = spread(random, .005, .1)};
-    case dem::Experiment::pendulum:
-      return dem::PendulumProtocol{.string_m = spread(random, .05, 2),
-                                   .release_deg = random.between(5, 90),
-                                   .pairs = whole(random, 1, 3)};
-    case dem::Experiment::draw_down:
-      return draw_down(reach_m, random);
-    case dem::Experiment::heap:
-      break;
+  if (experiment == dem::experiment_of<dem::DropProtocol>()) {
+    return dem::DropProtocol{.height_m = spread(random, .01, .5), .grains = whole(random, 1, 2)};
   }
-  return heap(reach_m, random);
+  if (experiment == dem::experiment_of<dem::TiltProtocol>()) {
+    return dem::TiltProtocol{.bonded = whole(random, 2, 4), .rate_deg_s = spread(random, 4, 10)};
+  }
+  if (experiment == dem::experiment_of<dem::RollProtocol>()) {
+    return dem::RollProtocol{.incline_deg = random.between(5, 45),
+                             .release_m = reach_m * random.between(3, 10),
+                             .release_turn_deg = random.between(0, 90)};
+  }
+  if (experiment == dem::experiment_of<dem::GrainDropProtocol>()) {
+    return dem::GrainDropProtocol{.height_m = spread(random, .01, .5),
+                                  .grains = whole(random, 1, 3),
+                                  .coverage = random.between(kSparse, kDense)};
+  }
+  if (experiment == dem::experiment_of<dem::GrainTiltProtocol>()) {
+    return dem::GrainTiltProtocol{.bonded = whole(random, 1, 4),
+                                  .rate_deg_s = spread(random, 4, 10),
+                                  .places = whole(random, 1, 2),
+                                  .coverage = random.between(kSparse, kDense)};
+  }
+  if (experiment == dem::experiment_of<dem::GrainRollProtocol>()) {
+    return dem::GrainRollProtocol{.rate_deg_s = spread(random, 4, 10),
+                                  .places = whole(random, 1, 2),
+                                  .coverage = random.between(kSparse, kDense)};
+  }
+  if (experiment == dem::experiment_of<dem::FillProtocol>()) {
+    return dem::FillProtocol{.tube_diameter_m = reach_m * random.between(8, 12),
+                             .tube_height_m = reach_m * random.between(8, 12),
+                             .pour_m = spread(random, .005, .1)};
+  }
+  if (experiment == dem::experiment_of<dem::PendulumProtocol>()) {
+    return dem::PendulumProtocol{.string_m = spread(random, .05, 2),
+                                 .release_deg = random.between(5, 90),
+                                 .pairs = whole(random, 1, 3)};
+  }
+  if (experiment == dem::experiment_of<dem::DrawDownProtocol>()) {
+    return draw_down(reach_m, random);
+  }
+  if (experiment == dem::experiment_of<dem::HeapProtocol>()) return heap(reach_m, random);
+  return experiment->usual;
 }
 
 bool is_finite(const dem::Repeat& repeat) {
@@ -157,8 +171,7 @@ std::string ending(dem::Experiment experiment, std::uint64_t number, const Soak&
   try {
     const dem::Model simulated = model(random);
     const dem::Protocol done = protocol(experiment, simulated, random);
-    const dem::Repeat repeat =
-        dem::entry_of(experiment).run(simulated, done, number + 1, report, {});
+    const dem::Repeat repeat = experiment->run(simulated, done, number + 1, report, {});
     return is_finite(repeat) ? "readings" : "NOT FINITE";
   } catch (const dem::NoMeasurement&) {
     return "no reading";
@@ -203,7 +216,7 @@ void add_soak(CLI::App& bench) {
   app.add_option("--longest-s", soak->longest_s, "of one run (20)");
   app.callback([soak] {
     for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-      if (soak->only.empty() || entry.name == soak->only) soak_all(entry.experiment, *soak);
+      if (soak->only.empty() || entry.name == soak->only) soak_all(&entry, *soak);
     }
   });
 }

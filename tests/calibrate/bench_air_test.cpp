@@ -6,6 +6,8 @@
 #include "base/air_drag.h"
 #include "calibrate/bench/bench_readings.h"
 #include "calibrate/study/study_record.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
@@ -38,7 +40,7 @@ class BenchAir : public ::testing::Test {
         as_measured(
             study, grain.shape,
             {.sheets = read_sheets(study, NoRows::refused), .pictures = {}, .films = films}),
-        dem::Experiment::drop);
+        dem::experiment_of<dem::DropProtocol>());
   }
 
   TemporaryFolder folder_;

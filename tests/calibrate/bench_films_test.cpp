@@ -7,7 +7,8 @@
 #include "base/distributions.h"
 #include "calibrate/bench/bench_readings.h"
 #include "calibrate/study/study_problem.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/temporary_folder.h"
@@ -24,7 +25,7 @@ using ::testing::IsEmpty;
 FilmReading reading_of(double drop_mm, double rebound_mm, double uncertainty_mm) {
   FilmReading film{
       .experiment = "drop", .file = "a.mp4", .status = "ok", .value = {}, .reason = {}};
-  read_row(dem::entry_of(dem::Experiment::drop), dem::DropProtocol{.height_m = .1},
+  read_row(*dem::experiment_of<dem::DropProtocol>(), dem::DropProtocol{.height_m = .1},
            {{"drop_mm", {drop_mm, uncertainty_mm}}, {"rebound_mm", {rebound_mm, uncertainty_mm}}},
            film);
   return film;
@@ -95,7 +96,7 @@ TEST(BenchFilms, WhatFilmsShareIsToldByTheFallThatTheyShow) {
 TEST(BenchFilms, OneAloneAddsItsIntervalToTheScatterThatIsAssumed) {
   const Observable drop = drop_after({reading_of(100, 40, base::kNormal95 * 2)});
   EXPECT_FALSE(drop.sd);
-  const double usual = dem::entry_of(dem::Experiment::drop).usual_scatter;
+  const double usual = dem::experiment_of<dem::DropProtocol>()->usual_scatter;
   EXPECT_NEAR(*drop.assumed_sd_fraction, std::hypot(usual, .05), 1e-9);
   EXPECT_NEAR(*drop_after({reading_of(100, 40, 0)}).assumed_sd_fraction, usual, 1e-9);
 }

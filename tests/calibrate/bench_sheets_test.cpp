@@ -6,7 +6,7 @@
 #include "calibrate/bench/bench_readings.h"
 #include "calibrate/statistics/bench/sheet.h"
 #include "calibrate/study/study_problem.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"

@@ -90,16 +90,16 @@ TEST(BenchFormulas, RollingFrictionWithTheFootIsTheInverseOfTheDistance) {
 
 TEST(Bench, ADiameterTakesOutTheFoot) {
   std::vector<BenchReading> rows = readings({{20, 150, 782.4}});
-  const BenchResult without = evaluate_bench(BenchTest::rolling, rows);
+  const BenchResult without = evaluate_bench(bench_test_named("rolling"), rows);
   EXPECT_NEAR(without.quantities.front().repeats.mean, .05556, 5e-6);
   EXPECT_THAT(without.notes, Contains(AllOf(HasSubstr("foot of the incline is neglected"),
                                             HasSubstr("0.05 for one of 20 mm"))));
   rows.front().optional = {{"diameter_mm", 20}};
-  const BenchResult with = evaluate_bench(BenchTest::rolling, rows);
+  const BenchResult with = evaluate_bench(bench_test_named("rolling"), rows);
   EXPECT_NEAR(with.quantities.front().repeats.mean, .05, 5e-5);
   EXPECT_THAT(with.notes, Contains(HasSubstr("without that mu_r would be 0.05556")));
   rows.front().optional = {{"diameter_mm", 2000}};
-  EXPECT_THAT(error_of([&] { evaluate_bench(BenchTest::rolling, rows); }),
+  EXPECT_THAT(error_of([&] { evaluate_bench(bench_test_named("rolling"), rows); }),
               AllOf(HasSubstr("row 1: released_mm = 150: a ball of diameter_mm = 2000"),
                     HasSubstr("176.3 mm from the foot")));
 }
@@ -108,31 +108,31 @@ TEST(Bench, ADiameterTakesOutTheFoot) {
 TEST(Bench, AGrainThatStaysOnTheInclineCountsAsZero) {
   std::vector<BenchReading> rows = readings({{20, 150, 782.4}, {20, 150, 0}});
   const double tangent = std::tan(20 * kRad);
-  const BenchResult without = evaluate_bench(BenchTest::rolling, rows);
+  const BenchResult without = evaluate_bench(bench_test_named("rolling"), rows);
   EXPECT_NEAR(without.quantities.front().repeats.mean, (.05556 + tangent) / 2, 5e-6);
   EXPECT_THAT(without.notes, Contains(AllOf(HasSubstr("1 of 2 stayed on the incline"),
                                             HasSubstr("the mean is a lower bound"))));
   for (BenchReading& row : rows) row.optional = {{"diameter_mm", 20}};
-  const BenchResult with = evaluate_bench(BenchTest::rolling, rows);
+  const BenchResult with = evaluate_bench(bench_test_named("rolling"), rows);
   EXPECT_NEAR(with.quantities.front().repeats.mean, (.05 + tangent) / 2, 5e-5);
   rows.back().values.back() = -150;
-  EXPECT_THAT(error_of([&] { evaluate_bench(BenchTest::rolling, rows); }),
+  EXPECT_THAT(error_of([&] { evaluate_bench(bench_test_named("rolling"), rows); }),
               AllOf(HasSubstr("row 2: stopped_mm = -150"),
                     HasSubstr("0 of a grain that stayed on the incline")));
 }
 
 TEST(Bench, TheGrainsSizeAndDensityTakeOutTheAir) {
   std::vector<BenchReading> rows = readings({{500, .458 * .458 * 500}});
-  const BenchResult without = evaluate_bench(BenchTest::restitution, rows);
+  const BenchResult without = evaluate_bench(bench_test_named("restitution"), rows);
   EXPECT_NEAR(without.quantities.front().repeats.mean, .458, 1e-9);
   EXPECT_THAT(without.notes, Contains(HasSubstr("The air's drag is neglected")));
   rows.front().optional = {{"diameter_mm", 2}, {"density_kg_m3", 1100}};
-  const BenchResult with = evaluate_bench(BenchTest::restitution, rows);
+  const BenchResult with = evaluate_bench(bench_test_named("restitution"), rows);
   EXPECT_NEAR(with.quantities.front().repeats.mean, .5, 5e-4);
   EXPECT_THAT(with.notes,
               Contains(AllOf(HasSubstr("without that e would be 0.458"), HasSubstr("± 0.003"))));
   rows.front().optional = {{"in_air", 0}};
-  const BenchResult tracked = evaluate_bench(BenchTest::restitution, rows);
+  const BenchResult tracked = evaluate_bench(bench_test_named("restitution"), rows);
   EXPECT_NEAR(tracked.quantities.front().repeats.mean, .458, 1e-9);
   EXPECT_THAT(tracked.notes, Contains(HasSubstr("free of the air's drag")));
 }
@@ -140,7 +140,7 @@ TEST(Bench, TheGrainsSizeAndDensityTakeOutTheAir) {
 TEST(Bench, OptionalColumnsAreCheckedToo) {
   std::vector<BenchReading> rows = readings({{500, 100}, {500, 110}});
   const auto error = [&] {
-    return error_of([&] { evaluate_bench(BenchTest::restitution, rows); });
+    return error_of([&] { evaluate_bench(bench_test_named("restitution"), rows); });
   };
   rows[0].optional = {{"diameter_mm", 2}};
   rows[1].optional = {{"diameter_mm", 2}};
@@ -161,27 +161,27 @@ TEST(Bench, ReadingsAreInTheUnitsOfTheirNames) {
   const auto value = [](BenchTest test, const std::vector<double>& row) {
     return evaluate_bench(test, readings({row})).quantities.front().repeats.mean;
   };
-  EXPECT_NEAR(value(BenchTest::restitution, {500, 9.42}), .1372589, 1e-7);
-  EXPECT_NEAR(value(BenchTest::sliding, {22.70}), .4183, 5e-5);
-  EXPECT_NEAR(value(BenchTest::rolling, {20, 150, 322.81}), .1106, 5e-5);
-  EXPECT_NEAR(value(BenchTest::density, {2.553, 40, 43}), 851, 1e-9);
-  EXPECT_NEAR(value(BenchTest::drop_on_grains, {200, 31}), 31, 1e-12);
-  EXPECT_NEAR(value(BenchTest::tilt_on_grains, {44.8}), 44.8, 1e-12);
-  EXPECT_NEAR(value(BenchTest::roll_on_grains, {39.1}), 39.1, 1e-12);
-  EXPECT_NEAR(value(BenchTest::fill, {1530}), 1530, 1e-12);
-  EXPECT_NEAR(value(BenchTest::draw_down, {71.5}), 71.5, 1e-12);
-  EXPECT_NEAR(value(BenchTest::pendulum, {30, 30}), 1, 1e-12);
+  EXPECT_NEAR(value(bench_test_named("restitution"), {500, 9.42}), .1372589, 1e-7);
+  EXPECT_NEAR(value(bench_test_named("sliding"), {22.70}), .4183, 5e-5);
+  EXPECT_NEAR(value(bench_test_named("rolling"), {20, 150, 322.81}), .1106, 5e-5);
+  EXPECT_NEAR(value(bench_test_named("density"), {2.553, 40, 43}), 851, 1e-9);
+  EXPECT_NEAR(value(bench_test_named("drop_on_grains"), {200, 31}), 31, 1e-12);
+  EXPECT_NEAR(value(bench_test_named("tilt_on_grains"), {44.8}), 44.8, 1e-12);
+  EXPECT_NEAR(value(bench_test_named("roll_on_grains"), {39.1}), 39.1, 1e-12);
+  EXPECT_NEAR(value(bench_test_named("fill"), {1530}), 1530, 1e-12);
+  EXPECT_NEAR(value(bench_test_named("draw_down"), {71.5}), 71.5, 1e-12);
+  EXPECT_NEAR(value(bench_test_named("pendulum"), {30, 30}), 1, 1e-12);
   // e = .5: three quarters of the speed, and of the sine of half the angle.
-  EXPECT_NEAR(value(BenchTest::pendulum, {60, 44.0486256}), .5, 1e-7);
+  EXPECT_NEAR(value(bench_test_named("pendulum"), {60, 44.0486256}), .5, 1e-7);
   // 1000 N on a spot of 4 mm, a tenth of the height.
-  EXPECT_NEAR(value(BenchTest::young, {1000, 4, 18, 1.8}), 1000 / (4e-6 * std::numbers::pi) / .1,
-              1);
-  EXPECT_NEAR(value(BenchTest::poisson, {18, 2, 17, .38 * 2. / 18 * 17}), .38, 1e-12);
+  EXPECT_NEAR(value(bench_test_named("young"), {1000, 4, 18, 1.8}),
+              1000 / (4e-6 * std::numbers::pi) / .1, 1);
+  EXPECT_NEAR(value(bench_test_named("poisson"), {18, 2, 17, .38 * 2. / 18 * 17}), .38, 1e-12);
 }
 
 TEST(Bench, RepeatsHaveMeanScatterAndStudentsInterval) {
-  const BenchResult result =
-      evaluate_bench(BenchTest::sliding, readings({{22.1}, {22.9}, {23.1}, {22.3}, {22.6}}));
+  const BenchResult result = evaluate_bench(bench_test_named("sliding"),
+                                            readings({{22.1}, {22.9}, {23.1}, {22.3}, {22.6}}));
   const auto& [n, mean, sd, uncertainty] = result.quantities.front().repeats;
   EXPECT_EQ(n, 5);
   ASSERT_TRUE(sd && uncertainty);
@@ -190,30 +190,31 @@ TEST(Bench, RepeatsHaveMeanScatterAndStudentsInterval) {
 }
 
 TEST(Bench, OneReadingHasNoScatter) {
-  const BenchResult result = evaluate_bench(BenchTest::sliding, readings({{22.7}}));
+  const BenchResult result = evaluate_bench(bench_test_named("sliding"), readings({{22.7}}));
   EXPECT_FALSE(result.quantities.front().repeats.sd);
   EXPECT_FALSE(result.quantities.front().repeats.mean_uncertainty);
   EXPECT_THAT(result.notes, Contains(HasSubstr("One reading")));
 }
 
 TEST(Bench, EqualReadingsAreSaidToHideTheScatter) {
-  const BenchResult result = evaluate_bench(BenchTest::sliding, readings({{22}, {22}, {22}}));
+  const BenchResult result =
+      evaluate_bench(bench_test_named("sliding"), readings({{22}, {22}, {22}}));
   EXPECT_THAT(result.notes, Contains(HasSubstr("are the same")));
 }
 
 TEST(Bench, IntervalsThatReachTooFarAreSaid) {
   const BenchResult result =
-      evaluate_bench(BenchTest::restitution, readings({{500, 1}, {500, 90}}));
+      evaluate_bench(bench_test_named("restitution"), readings({{500, 1}, {500, 90}}));
   EXPECT_THAT(result.notes, Contains(HasSubstr("impossible")));
 }
 
 TEST(Bench, DropsThatDifferAreNamed) {
   std::vector<BenchReading> rows = readings({{500, 180}, {505, 190}, {301, 193}, {496, 170}});
   rows[2].place = "drops.csv:4";
-  EXPECT_THAT(evaluate_bench(BenchTest::restitution, rows).notes,
+  EXPECT_THAT(evaluate_bench(bench_test_named("restitution"), rows).notes,
               Contains(AllOf(HasSubstr("1 of 4 drops"), HasSubstr("drops.csv:4 (301 mm)"))));
   rows.erase(rows.begin() + 2);
-  EXPECT_THAT(evaluate_bench(BenchTest::restitution, rows).notes,
+  EXPECT_THAT(evaluate_bench(bench_test_named("restitution"), rows).notes,
               Not(Contains(HasSubstr("another height"))));
 }
 
@@ -221,7 +222,7 @@ TEST(Bench, RepeatsOnOneSampleAreAveragedFirst) {
   std::vector<BenchReading> rows = readings({{1, 0, 1}, {1.2, 0, 1}, {2, 0, 1}});
   rows[0].sample = rows[1].sample = "A";
   rows[2].sample = "B";
-  const BenchResult result = evaluate_bench(BenchTest::density, rows);
+  const BenchResult result = evaluate_bench(bench_test_named("density"), rows);
   const BenchQuantity& density = result.quantities.front();
   EXPECT_EQ(density.repeats.n, 2);
   EXPECT_NEAR(density.values[0], 1100, 1e-9);
@@ -230,8 +231,8 @@ TEST(Bench, RepeatsOnOneSampleAreAveragedFirst) {
 }
 
 TEST(Bench, SizesGiveDiameterAndSphericity) {
-  const BenchResult result =
-      evaluate_bench(BenchTest::size, readings({{22.48, 18.23, 17.46}, {22.48, 18.23, 17.46}}));
+  const BenchResult result = evaluate_bench(
+      bench_test_named("size"), readings({{22.48, 18.23, 17.46}, {22.48, 18.23, 17.46}}));
   ASSERT_EQ(result.quantities.size(), 5U);
   EXPECT_NEAR(result.quantities[3].repeats.mean, std::cbrt(22.48 * 18.23 * 17.46), 1e-12);
   EXPECT_NEAR(result.quantities[4].repeats.mean, .8572, 5e-5);
@@ -239,40 +240,41 @@ TEST(Bench, SizesGiveDiameterAndSphericity) {
 
 TEST(Bench, ImpossibleReadingsAreRefusedAllAtOnce) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(
-      bench_error(BenchTest::restitution, {{500, 510}, {500, 9}, {0, 9}, {500, -1}, {kNan, 1}}),
-      AllOf(HasSubstr("row 1: rebound_mm = 510 is more than drop_mm = 500"),
-            HasSubstr("row 3: drop_mm = 0"), HasSubstr("row 4: rebound_mm = -1"),
-            HasSubstr("row 5: drop_mm = nan")));
-  EXPECT_THAT(bench_error(BenchTest::sliding, {{90}, {0}, {120}}),
+  EXPECT_THAT(bench_error(bench_test_named("restitution"),
+                          {{500, 510}, {500, 9}, {0, 9}, {500, -1}, {kNan, 1}}),
+              AllOf(HasSubstr("row 1: rebound_mm = 510 is more than drop_mm = 500"),
+                    HasSubstr("row 3: drop_mm = 0"), HasSubstr("row 4: rebound_mm = -1"),
+                    HasSubstr("row 5: drop_mm = nan")));
+  EXPECT_THAT(bench_error(bench_test_named("sliding"), {{90}, {0}, {120}}),
               AllOf(HasSubstr("row 1: angle_deg = 90"), HasSubstr("row 2: angle_deg = 0"),
                     HasSubstr("row 3: angle_deg = 120")));
-  EXPECT_THAT(bench_error(BenchTest::rolling, {{20, -1, 5}, {95, 150, 300}}),
+  EXPECT_THAT(bench_error(bench_test_named("rolling"), {{20, -1, 5}, {95, 150, 300}}),
               AllOf(HasSubstr("released_mm = -1"), HasSubstr("incline_deg = 95")));
-  EXPECT_THAT(
-      bench_error(BenchTest::poisson, {{10, 1, 10, .5}, {10, 1, 10, -1.2}, {10, 11, 10, 1}}),
-      AllOf(HasSubstr("row 1: Poisson's ratio would be 0.5"),
-            HasSubstr("row 2: Poisson's ratio would be -1.2"),
-            HasSubstr("row 3: shortening_mm = 11")));
-  EXPECT_THAT(bench_error(BenchTest::density, {{3, 40, 39}, {3, 0, 3000}}),
+  EXPECT_THAT(bench_error(bench_test_named("poisson"),
+                          {{10, 1, 10, .5}, {10, 1, 10, -1.2}, {10, 11, 10, 1}}),
+              AllOf(HasSubstr("row 1: Poisson's ratio would be 0.5"),
+                    HasSubstr("row 2: Poisson's ratio would be -1.2"),
+                    HasSubstr("row 3: shortening_mm = 11")));
+  EXPECT_THAT(bench_error(bench_test_named("density"), {{3, 40, 39}, {3, 0, 3000}}),
               AllOf(HasSubstr("no liquid was displaced"), HasSubstr("no grain is")));
-  EXPECT_THAT(bench_error(BenchTest::young, {{10, 2, 5, 5}}), HasSubstr("compression_mm = 5"));
-  EXPECT_THAT(bench_error(BenchTest::size, {{10, 12, 9}}), HasSubstr("not the longest"));
-  EXPECT_THAT(bench_error(BenchTest::pendulum, {{30, 31}, {30, -1}}),
+  EXPECT_THAT(bench_error(bench_test_named("young"), {{10, 2, 5, 5}}),
+              HasSubstr("compression_mm = 5"));
+  EXPECT_THAT(bench_error(bench_test_named("size"), {{10, 12, 9}}), HasSubstr("not the longest"));
+  EXPECT_THAT(bench_error(bench_test_named("pendulum"), {{30, 31}, {30, -1}}),
               AllOf(HasSubstr("swing_deg = 31 is more than release_deg = 30"),
                     HasSubstr("swing_deg = -1")));
-  EXPECT_THAT(bench_error(BenchTest::fill, {{-5}}), HasSubstr("bulk_density_kg_m3 = -5"));
-  EXPECT_THAT(bench_error(BenchTest::draw_down, {{0}, {100}}),
+  EXPECT_THAT(bench_error(bench_test_named("fill"), {{-5}}), HasSubstr("bulk_density_kg_m3 = -5"));
+  EXPECT_THAT(bench_error(bench_test_named("draw_down"), {{0}, {100}}),
               AllOf(HasSubstr("row 1: discharged_percent = 0"),
                     HasSubstr("row 2: discharged_percent = 100")));
-  EXPECT_THAT(bench_error(BenchTest::size, {}), HasSubstr("no readings"));
-  EXPECT_THAT(bench_error(BenchTest::size, {{1, 2}}),
+  EXPECT_THAT(bench_error(bench_test_named("size"), {}), HasSubstr("no readings"));
+  EXPECT_THAT(bench_error(bench_test_named("size"), {{1, 2}}),
               HasSubstr("2 values are given for 3 columns"));
 }
 
 TEST(Bench, AuxeticAndBouncelessGrainsArePossible) {
-  EXPECT_EQ(bench_error(BenchTest::poisson, {{10, 1, 10, -.3}}), "");
-  EXPECT_EQ(bench_error(BenchTest::restitution, {{500, 0}, {500, 500}}), "");
+  EXPECT_EQ(bench_error(bench_test_named("poisson"), {{10, 1, 10, -.3}}), "");
+  EXPECT_EQ(bench_error(bench_test_named("restitution"), {{500, 0}, {500, 500}}), "");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
+#include "dem/experiment/draw_down.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {
@@ -59,7 +60,9 @@ render::Scene scene_of(const Degrees& angles) {
   return scene;
 }
 
-DrawDownFront front_of(const Degrees& angles) { return draw_down_front(scene_of(angles), kDrawn); }
+DrawDownFront front_of(const Degrees& angles) {
+  return draw_down_front(scene_of(angles), dem::front_of(kDrawn));
+}
 
 TEST(DrawDownFront, ShowsTheAnglesOfKnownSlopes) {
   const DrawDownFront front = front_of({25, 25, 35, 35});
@@ -109,8 +112,8 @@ TEST(DrawDownFront, ASideWithoutASlopeIsLeftOut) {
   EXPECT_TRUE(bare.slopes.back().angle_rad);
   render::Scene empty;
   empty.shapes = {dem::sphere_shape(.002)};
-  EXPECT_THROW(draw_down_front(empty, kDrawn), base::InputError);
-  EXPECT_THROW(draw_down_front({}, kDrawn), base::InputError);
+  EXPECT_THROW(draw_down_front(empty, dem::front_of(kDrawn)), base::InputError);
+  EXPECT_THROW(draw_down_front({}, dem::front_of(kDrawn)), base::InputError);
 }
 
 TEST(DrawDownFront, SteepSlopesHaveAnAngleToo) {
@@ -183,7 +186,8 @@ TEST(DrawDownFront, PhotographsOfTheHeapAndTheSlopesShowTheSame) {
     const dem::Repeat repeat = simulated(seed);
     const Measured photo = measured(*repeat.state);
     if (!photo.lower_rad || !photo.upper_left_rad || !photo.upper_right_rad) continue;
-    const DrawDownFront front = draw_down_front(render::scene_of(*repeat.state), kBoxes);
+    const DrawDownFront front =
+        draw_down_front(render::scene_of(*repeat.state), dem::front_of(kBoxes));
     EXPECT_NEAR(*photo.lower_rad / kDegree, front.lower_angle_deg.value(), .5);
     const double upper_rad = (*photo.upper_left_rad + *photo.upper_right_rad) / 2;
     EXPECT_NEAR(upper_rad / kDegree, front.upper_angle_deg.value(), .5);

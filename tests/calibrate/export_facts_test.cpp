@@ -4,6 +4,11 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/export/facts.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {
@@ -16,9 +21,9 @@ using ::testing::Not;
 dem::Study hazelnuts_to_fit() {
   dem::Study study;
   study.model = dem::test::clump_bench();
-  study.experiments[dem::Experiment::drop].protocol = dem::DropProtocol{};
-  study.experiments[dem::Experiment::tilt].protocol = dem::TiltProtocol{};
-  study.experiments[dem::Experiment::roll].protocol = dem::RollProtocol{};
+  study.experiments[dem::experiment_of<dem::DropProtocol>()].protocol = dem::DropProtocol{};
+  study.experiments[dem::experiment_of<dem::TiltProtocol>()].protocol = dem::TiltProtocol{};
+  study.experiments[dem::experiment_of<dem::RollProtocol>()].protocol = dem::RollProtocol{};
   study.particle_wall.restitution.min = .1;
   study.particle_wall.restitution.max = .9;
   return study;
@@ -46,7 +51,7 @@ TEST(ExportFacts, RefuseACoefficientWithoutAValue) {
   study.particle_particle.sliding_friction.max = .9;
   const std::vector<FittedValue> fitted = {{.name = kRestitution, .value = .42}};
   EXPECT_EQ(facts_error(study, fitted), "") << "grains touch each other in heaps only";
-  study.experiments[dem::Experiment::heap].protocol = dem::HeapProtocol{};
+  study.experiments[dem::experiment_of<dem::HeapProtocol>()].protocol = dem::HeapProtocol{};
   EXPECT_THAT(facts_error(study, fitted),
               AllOf(HasSubstr("particle_particle.sliding_friction"), Not(HasSubstr(kRestitution))));
 }

@@ -7,6 +7,15 @@
 #include <gmock/gmock.h>
 
 #include "dem/contact/restitution.h"
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/pendulum.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
+#include "dem/experiment/tilt_on_grains.h"
 #include "tests/calibrate/made_up_result.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/temporary_folder.h"
@@ -28,11 +37,11 @@ dem::Study hazelnuts(dem::RollingModel rolling = dem::RollingModel::relative_con
   dem::Study study;
   study.model = dem::test::clump_bench();
   study.model.rolling = rolling;
-  study.experiments[dem::Experiment::drop].protocol = dem::DropProtocol{};
-  study.experiments[dem::Experiment::tilt].protocol = dem::TiltProtocol{};
-  study.experiments[dem::Experiment::roll].protocol = dem::RollProtocol{};
-  study.experiments[dem::Experiment::heap].protocol = dem::HeapProtocol{};
-  study.experiments[dem::Experiment::heap].stiffness_factor = .01;
+  study.experiments[dem::experiment_of<dem::DropProtocol>()].protocol = dem::DropProtocol{};
+  study.experiments[dem::experiment_of<dem::TiltProtocol>()].protocol = dem::TiltProtocol{};
+  study.experiments[dem::experiment_of<dem::RollProtocol>()].protocol = dem::RollProtocol{};
+  study.experiments[dem::experiment_of<dem::HeapProtocol>()].protocol = dem::HeapProtocol{};
+  study.experiments[dem::experiment_of<dem::HeapProtocol>()].stiffness_factor = .01;
   return study;
 }
 
@@ -77,8 +86,8 @@ TEST(ExportStudy, EachProgramHasItsDecksAndAReadme) {
 
 TEST(ExportStudy, ExperimentsThatTheStudyDoesNotHaveHaveNoDeck) {
   dem::Study study = hazelnuts();
-  study.experiments.erase(dem::Experiment::heap);
-  study.experiments.erase(dem::Experiment::roll);
+  study.experiments.erase(dem::experiment_of<dem::HeapProtocol>());
+  study.experiments.erase(dem::experiment_of<dem::RollProtocol>());
   const StudyExport made = exported(study, ExportTarget::liggghts);
   EXPECT_THAT(names_of(made), AllOf(Contains("drop.lig"), Not(Contains("heap.lig")),
                                     Not(Contains("roll.lig")), Not(Contains("tube.stl"))));
@@ -101,8 +110,8 @@ TEST(ExportStudy, SizesThatVaryAreSaidNotToCarryOver) {
 
 TEST(ExportStudy, WhatHasNoDeckIsNamed) {
   dem::Study study = hazelnuts();
-  study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
-  study.experiments[dem::Experiment::draw_down].protocol = dem::DrawDownProtocol{};
+  study.experiments[dem::experiment_of<dem::PendulumProtocol>()].protocol = dem::PendulumProtocol{};
+  study.experiments[dem::experiment_of<dem::DrawDownProtocol>()].protocol = dem::DrawDownProtocol{};
   const auto left_out = [&](ExportTarget target) {
     const std::string readme = file_text(exported(study, target), "README.txt");
     const std::string before = "Experiments of the study without a deck: ";
@@ -123,7 +132,7 @@ TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
         dem::Protocol(dem::GrainTiltProtocol{.places = 1}),
         dem::Protocol(dem::GrainRollProtocol{.places = 1}), dem::Protocol(dem::FillProtocol{}),
         dem::Protocol(dem::DrawDownProtocol{})}) {
-    study.experiments[static_cast<dem::Experiment>(protocol.index())].protocol = protocol;
+    study.experiments[&dem::entry_of(protocol)].protocol = protocol;
   }
   const StudyExport made = exported(study, ExportTarget::liggghts);
   for (const char* name :
@@ -134,11 +143,13 @@ TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
     EXPECT_THAT(names_of(made), Contains(name));
     EXPECT_THAT(file_text(made, name), AllOf(Not(HasSubstr("{{")), Not(HasSubstr("nan"))));
   }
-  study.experiments[dem::Experiment::fill].protocol = dem::FillProtocol{.taps = 30};
+  study.experiments[dem::experiment_of<dem::FillProtocol>()].protocol =
+      dem::FillProtocol{.taps = 30};
   const StudyExport tapped = exported(study, ExportTarget::liggghts);
   EXPECT_THAT(names_of(tapped), Not(Contains("fill.lig")));
   EXPECT_THAT(file_text(tapped, "README.txt"), HasSubstr("without a deck: fill."));
-  study.experiments[dem::Experiment::fill].protocol = dem::FillProtocol{.pour_kg_s = .05};
+  study.experiments[dem::experiment_of<dem::FillProtocol>()].protocol =
+      dem::FillProtocol{.pour_kg_s = .05};
   EXPECT_THAT(names_of(exported(study, ExportTarget::liggghts)), Not(Contains("fill.lig")));
 }
 
@@ -208,14 +219,14 @@ TEST(ExportStudy, APartWithoutAnExperimentNeedsNoCoefficients) {
   restitution.max = .9;
   EXPECT_THAT(error_of([&] { exported(study, ExportTarget::liggghts); }),
               HasSubstr("contact.particle_tube.restitution: has no value"));
-  study.experiments.erase(dem::Experiment::heap);
+  study.experiments.erase(dem::experiment_of<dem::HeapProtocol>());
   EXPECT_THAT(exported(study, ExportTarget::liggghts).conversions, SizeIs(6));
 }
 
 TEST(ExportStudy, AStudyWithoutAnyDeckIsRefused) {
   dem::Study study = hazelnuts();
   study.experiments.clear();
-  study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
+  study.experiments[dem::experiment_of<dem::PendulumProtocol>()].protocol = dem::PendulumProtocol{};
   EXPECT_THAT(names_of(exported(study, ExportTarget::liggghts)), Contains("pendulum.lig"));
   EXPECT_THAT(error_of([&] { exported(study, ExportTarget::yade); }),
               AllOf(HasSubstr("no experiment that yade has a deck for"),
@@ -226,7 +237,7 @@ TEST(ExportStudy, AStudyWithoutAnyDeckIsRefused) {
 TEST(ExportStudy, CoefficientsBetweenGrainsAreThoseOfTheStudy) {
   dem::Study study = hazelnuts();
   study.experiments.clear();
-  study.experiments[dem::Experiment::pendulum].protocol = dem::PendulumProtocol{};
+  study.experiments[dem::experiment_of<dem::PendulumProtocol>()].protocol = dem::PendulumProtocol{};
   study.model.grain_grain.restitution = .77;
   study.model.grain_wall.restitution = .33;
   EXPECT_THAT(file_text(exported(study, ExportTarget::liggghts), "material.lig"),

@@ -10,6 +10,8 @@
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_problem.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/tilt.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/fake_simulator.h"
 #include "tests/calibrate/sphere_study.h"
@@ -169,7 +171,7 @@ TEST_F(StudyModelError, IsAPercentageOfTheReading) {
   EXPECT_NEAR(stated.observables.at(1).model_sd, .8, 1e-12);
   EXPECT_NEAR(stated.experiments.at(1).model_fraction, .04, 1e-12);
   const Problem usual = problem({"experiment.tilt.measured = { mean = 20 }"});
-  const double fraction = dem::entry_of(dem::Experiment::tilt).usual_model_error;
+  const double fraction = dem::experiment_of<dem::TiltProtocol>()->usual_model_error;
   EXPECT_NEAR(usual.observables.at(1).model_sd, fraction * 20, 1e-12);
 }
 

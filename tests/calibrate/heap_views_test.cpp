@@ -6,6 +6,8 @@
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/simulate_experiment.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/error_of.h"
 #include "tests/support/nut_heap.h"
@@ -45,15 +47,15 @@ bool has_white_edge(const vision::Picture& picture) {
 TEST(HeapViews, ACameraFarAwaySeesWhatParallelRaysShow) {
   for (const int view : {0, 2}) {
     const TakenView parallel = taken({.views = 3}, view);
-    const TakenView far = taken({.views = 3, .camera = HeapCamera{1000, .04}}, view);
+    const TakenView far = taken({.views = 3, .camera = dem::LevelCamera{1000, .04}}, view);
     ASSERT_TRUE(parallel.angle.angle_rad && far.angle.angle_rad) << far.angle.reason;
     EXPECT_NEAR(*far.angle.angle_rad / kDegree, *parallel.angle.angle_rad / kDegree, .1);
   }
 }
 
 TEST(HeapViews, ACameraNearTheHeapHasAllOfItInThePicture) {
-  for (const HeapCamera& camera :
-       {HeapCamera{1.5, .04}, HeapCamera{.5, .02}, HeapCamera{.5, .3}, HeapCamera{.25, .001}}) {
+  for (const dem::LevelCamera& camera : {dem::LevelCamera{1.5, .04}, dem::LevelCamera{.5, .02},
+                                         dem::LevelCamera{.5, .3}, dem::LevelCamera{.25, .001}}) {
     EXPECT_TRUE(has_white_edge(taken({.views = 1, .camera = camera}).picture))
         << camera.distance_m << ' ' << camera.height_m;
   }
@@ -61,7 +63,7 @@ TEST(HeapViews, ACameraNearTheHeapHasAllOfItInThePicture) {
 
 TEST(HeapViews, ACameraInTheHeapIsRefused) {
   EXPECT_THAT(error_of([] {
-                taken({.views = 1, .camera = HeapCamera{.02, .02}});
+                taken({.views = 1, .camera = dem::LevelCamera{.02, .02}});
               }),
               AllOf(HasSubstr("distance_m is 0.02"), HasSubstr("Fix: ")));
 }
@@ -87,7 +89,7 @@ TEST(HeapViews, ANearCameraSeesTheFootInFrontBelowTheMiddlesByPinholeGeometry) {
   }
   const double lower_m = .04 * reach_m / (1 - reach_m);
   const double seen_m =
-      height_m({.views = 1, .camera = HeapCamera{1, .04}}) - height_m({.views = 1});
+      height_m({.views = 1, .camera = dem::LevelCamera{1, .04}}) - height_m({.views = 1});
   // Grains are round: their lowest seen point lies a little behind or before their middle. And the
   // crest is not in the middle plane to a grain.
   EXPECT_NEAR(seen_m, lower_m, .25 * lower_m);

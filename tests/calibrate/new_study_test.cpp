@@ -12,6 +12,15 @@
 #include "calibrate/bench/bench_readings.h"
 #include "calibrate/start/usual_experiment.h"
 #include "calibrate/study/study_problem.h"
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/pendulum.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
+#include "dem/experiment/tilt_on_grains.h"
 #include "dem/study/study.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
@@ -40,8 +49,9 @@ NewStudy study_of(const GrainKind& kind, std::vector<dem::Experiment> experiment
   return study;
 }
 
-const std::vector<dem::Experiment> kAll = {dem::Experiment::drop, dem::Experiment::tilt,
-                                           dem::Experiment::roll, dem::Experiment::heap};
+const std::vector<dem::Experiment> kAll = {
+    dem::experiment_of<dem::DropProtocol>(), dem::experiment_of<dem::TiltProtocol>(),
+    dem::experiment_of<dem::RollProtocol>(), dem::experiment_of<dem::HeapProtocol>()};
 
 class NewStudyTest : public ::testing::Test {
  protected:
@@ -90,7 +100,8 @@ TEST_F(NewStudyTest, AsksForNothingButItsReadings) {
 }
 
 TEST_F(NewStudyTest, LeavesOpenWhatItsExperimentsTell) {
-  const dem::Study study = written(study_of(grain("wheat"), {dem::Experiment::tilt}));
+  const dem::Study study =
+      written(study_of(grain("wheat"), {dem::experiment_of<dem::TiltProtocol>()}));
   EXPECT_TRUE(study.particle_wall.sliding_friction.is_free());
   EXPECT_FALSE(study.particle_wall.restitution.is_free());
   EXPECT_FALSE(study.particle_particle.sliding_friction.is_free());
@@ -127,8 +138,9 @@ TEST_F(NewStudyTest, CanHaveATubeOfAnotherMaterial) {
 }
 
 TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
-  const dem::Study study = written(
-      study_of(grain("pea"), {dem::Experiment::tilt_on_grains, dem::Experiment::roll_on_grains}));
+  const dem::Study study =
+      written(study_of(grain("pea"), {dem::experiment_of<dem::GrainTiltProtocol>(),
+                                      dem::experiment_of<dem::GrainRollProtocol>()}));
   EXPECT_TRUE(study.particle_particle.sliding_friction.is_free());
   EXPECT_FALSE(study.particle_particle.restitution.is_free());
   EXPECT_FALSE(study.particle_wall.sliding_friction.is_free());
@@ -137,19 +149,24 @@ TEST_F(NewStudyTest, CanHavePlatesOfGrains) {
 
 TEST_F(NewStudyTest, SoftensNoExperimentWhoseReadingThatWouldChange) {
   const dem::Study study =
-      written(study_of(grain("pea"), {dem::Experiment::drop_on_grains,
-                                      dem::Experiment::tilt_on_grains, dem::Experiment::pendulum}));
-  EXPECT_LT(dem::model_for(study, dem::Experiment::tilt_on_grains).stiffness_factor, 1);
-  EXPECT_EQ(dem::model_for(study, dem::Experiment::drop_on_grains).stiffness_factor, 1);
-  EXPECT_EQ(dem::model_for(study, dem::Experiment::pendulum).stiffness_factor, 1);
+      written(study_of(grain("pea"), {dem::experiment_of<dem::GrainDropProtocol>(),
+                                      dem::experiment_of<dem::GrainTiltProtocol>(),
+                                      dem::experiment_of<dem::PendulumProtocol>()}));
+  EXPECT_LT(dem::model_for(study, dem::experiment_of<dem::GrainTiltProtocol>()).stiffness_factor,
+            1);
+  EXPECT_EQ(dem::model_for(study, dem::experiment_of<dem::GrainDropProtocol>()).stiffness_factor,
+            1);
+  EXPECT_EQ(dem::model_for(study, dem::experiment_of<dem::PendulumProtocol>()).stiffness_factor, 1);
 }
 
 // Beads of 6.5 MPa overlap so that a tube holds 2 % more of them, and of 65 MPa no more.
 TEST_F(NewStudyTest, FillsAreStiffEnoughForTheirDensityAndLackTheirRate) {
   const dem::Study study =
-      written(study_of(grain("glass"), {dem::Experiment::fill, dem::Experiment::draw_down}));
-  EXPECT_EQ(study.experiments.at(dem::Experiment::fill).stiffness_factor, .001);
-  EXPECT_EQ(study.experiments.at(dem::Experiment::draw_down).stiffness_factor, .0001);
+      written(study_of(grain("glass"), {dem::experiment_of<dem::FillProtocol>(),
+                                        dem::experiment_of<dem::DrawDownProtocol>()}));
+  EXPECT_EQ(study.experiments.at(dem::experiment_of<dem::FillProtocol>()).stiffness_factor, .001);
+  EXPECT_EQ(study.experiments.at(dem::experiment_of<dem::DrawDownProtocol>()).stiffness_factor,
+            .0001);
   std::ifstream file(folder_.path() / "new.toml");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   EXPECT_THAT(text, HasSubstr("# Until it is added below: how fast it was poured is not said"));
@@ -157,7 +174,8 @@ TEST_F(NewStudyTest, FillsAreStiffEnoughForTheirDensityAndLackTheirRate) {
 
 // Without its rate a density is known to 3.5 % of itself at best.
 TEST_F(NewStudyTest, AFillWithoutItsRateHasASystematicUncertainty) {
-  written(study_of(grain("glass"), {dem::Experiment::drop, dem::Experiment::fill}));
+  written(study_of(grain("glass"), {dem::experiment_of<dem::DropProtocol>(),
+                                    dem::experiment_of<dem::FillProtocol>()}));
   const auto fill_with = [&](const std::vector<std::string>& settings) {
     std::vector<std::string> all = {
         "experiment.fill.measured = { mean = 1500, sd = 10, n = 5 }",
@@ -179,9 +197,9 @@ TEST_F(NewStudyTest, AFillWithoutItsRateHasASystematicUncertainty) {
 
 TEST_F(NewStudyTest, BoxesOfADrawDownSuitTheGrains) {
   for (const GrainKind& kind : grain_kinds()) {
-    const auto boxes = std::get<dem::DrawDownProtocol>(
-        usual_experiment(dem::entry_of(dem::Experiment::draw_down), {.grain_mm = kind.sizes})
-            .protocol);
+    const auto boxes =
+        usual_experiment(*dem::experiment_of<dem::DrawDownProtocol>(), {.grain_mm = kind.sizes})
+            .protocol.as<dem::DrawDownProtocol>();
     const double longest_m = *std::max_element(kind.sizes.begin(), kind.sizes.end()) / 1000;
     EXPECT_GE(boxes.slot_m, 5 * longest_m) << kind.name;
     EXPECT_GE(boxes.depth_m, 6 * longest_m) << kind.name;

@@ -11,7 +11,12 @@
 #include "calibrate/plan/offers.h"
 #include "calibrate/start/usual_experiment.h"
 #include "calibrate/study/study_simulator.h"
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
@@ -184,19 +189,20 @@ TEST_F(OfferedStudyTest, HasEveryExperimentThatDependsOnWhatIsSoughtAndWhatWasMe
 
 TEST_F(OfferedStudyTest, HasNothingButItsOwnExperimentsAndThoseThatCouldBeDone) {
   const dem::Study study = study_of(test::kSphereStudy);
-  const OfferedStudy made = offered_study(study, dem::build_grain(study.grain), plan_budget(60),
-                                          {dem::Experiment::tilt, dem::Experiment::roll});
+  const OfferedStudy made = offered_study(
+      study, dem::build_grain(study.grain), plan_budget(60),
+      {dem::experiment_of<dem::TiltProtocol>(), dem::experiment_of<dem::RollProtocol>()});
   EXPECT_EQ(made.study.experiments.size(), 3U);
   ASSERT_EQ(made.added.size(), 1U);
-  EXPECT_EQ(made.added.begin()->first, dem::Experiment::roll);
+  EXPECT_EQ(made.added.begin()->first, dem::experiment_of<dem::RollProtocol>());
 }
 
 TEST_F(OfferedStudyTest, LeavesOutWhatWouldTakeLongerThanAllOfItMayAndSaysSo) {
   const dem::Study study = study_of(test::kSphereStudy);
   const dem::ClumpFile grain = dem::build_grain(study.grain);
   const OfferedStudy made = offered_study(study, grain, plan_budget(6), every_experiment());
-  EXPECT_FALSE(made.added.contains(dem::Experiment::draw_down));
-  EXPECT_FALSE(made.study.experiments.contains(dem::Experiment::draw_down));
+  EXPECT_FALSE(made.added.contains(dem::experiment_of<dem::DrawDownProtocol>()));
+  EXPECT_FALSE(made.study.experiments.contains(dem::experiment_of<dem::DrawDownProtocol>()));
   EXPECT_THAT(made.notes, ::testing::Contains(HasSubstr("draw_down is left out: its simulations")));
   EXPECT_THAT(made.notes.front(), HasSubstr("give --minutes"));
   EXPECT_EQ(made.problem.observables.size(), 2U) << "what is measured stays";
@@ -208,13 +214,13 @@ TEST_F(OfferedStudyTest, LinesForTheStudyFileAreReadAsTheExperimentThatWasPlanne
   const OfferedStudy made = offered(study_of(test::kSphereStudy));
   std::string text = test::kSphereStudy;
   for (const auto& [experiment, described] : made.added) {
-    const std::string section = study_section(dem::entry_of(experiment), described);
+    const std::string section = study_section(*experiment, described);
     EXPECT_THAT(section, HasSubstr("measured = { readings = \""));
     text += section.substr(0, section.find("measured = "));  // the sheet is yet to be filled in
   }
   const dem::Study read = study_of(text);
   for (const auto& [experiment, described] : made.added) {
-    const dem::ExperimentEntry& entry = dem::entry_of(experiment);
+    const dem::ExperimentEntry& entry = *experiment;
     dem::Protocol again = read.experiments.at(experiment).protocol;
     EXPECT_EQ(protocol_lines(entry, again), protocol_lines(entry, described.protocol));
     EXPECT_EQ(read.experiments.at(experiment).stiffness_factor, described.stiffness_factor);
@@ -239,8 +245,9 @@ TEST_F(OfferedStudyTest, WhatAPlanSimulatedIsOfferedToACalibrationInTheSameFolde
     EXPECT_THAT(offer.study_lines, HasSubstr("[experiment." + offer.experiment.name + "]"));
   }
 
-  const OfferedStudy small =
-      offered_study(study, grain, plan_budget(200), {dem::Experiment::roll, dem::Experiment::fill});
+  const OfferedStudy small = offered_study(
+      study, grain, plan_budget(200),
+      {dem::experiment_of<dem::RollProtocol>(), dem::experiment_of<dem::FillProtocol>()});
   const StudySimulator simulator(small.study, grain, small.problem.parameters);
   std::vector<calibrate::Run> saved;
   for (const Job& job : plan_jobs(small)) {

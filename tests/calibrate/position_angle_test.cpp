@@ -5,6 +5,8 @@
 
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
+#include "calibrate/experiment/run_result.h"
+#include "dem/experiment/heap.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/support/sphere_heap.h"
 

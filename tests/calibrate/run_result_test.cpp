@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/experiment_table.h"
 #include "tests/calibrate/stored_runs.h"
 
 namespace repose::calibrate {
@@ -226,7 +227,7 @@ TEST(RunResult, FilesOfEarlierVersionsAreReadAndWrittenAsTheyWere) {
   EXPECT_EQ(heap.views[0].picture.status, MeasureStatus::flagged);
   EXPECT_EQ(heap.views[1].picture.angle_rad, 0.43794488562412537);
   EXPECT_EQ(heap.views[1].picture.other_rad.at("whole_flank"), 0.43384507509194475);
-  EXPECT_EQ(heap.camera, (HeapCamera{.distance_m = .9, .height_m = .06}));
+  EXPECT_EQ(heap.camera, (dem::LevelCamera{.distance_m = .9, .height_m = .06}));
   EXPECT_EQ(heap.other_deg.size(), 5U);
   EXPECT_TRUE(is_from_pictures(heap));
 

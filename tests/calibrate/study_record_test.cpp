@@ -7,6 +7,9 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/tilt.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/temporary_folder.h"
@@ -74,10 +77,13 @@ TEST_F(StudyRecordTest, ComesBackWhenTheStudyIsGone) {
   EXPECT_EQ(read.study.hash, written.study.hash);
   EXPECT_EQ(read.study.file, "study.toml");
   EXPECT_EQ(read.study.model.grain_material.density_kg_m3, 700);
-  EXPECT_EQ(dem::model_for(read.study, dem::Experiment::heap).stiffness_factor,
-            dem::model_for(written.study, dem::Experiment::heap).stiffness_factor);
-  EXPECT_THAT(dem::measured_in(read.study, dem::Experiment::heap).values, ElementsAre(24.125));
-  EXPECT_THAT(dem::measured_in(read.study, dem::Experiment::tilt).values, ElementsAre(20, 21));
+  EXPECT_EQ(
+      dem::model_for(read.study, dem::experiment_of<dem::HeapProtocol>()).stiffness_factor,
+      dem::model_for(written.study, dem::experiment_of<dem::HeapProtocol>()).stiffness_factor);
+  EXPECT_THAT(dem::measured_in(read.study, dem::experiment_of<dem::HeapProtocol>()).values,
+              ElementsAre(24.125));
+  EXPECT_THAT(dem::measured_in(read.study, dem::experiment_of<dem::TiltProtocol>()).values,
+              ElementsAre(20, 21));
   EXPECT_EQ(read.measurement.sheets.at(0).rows, 2);
   EXPECT_EQ(read.budget.name, "quick");
   EXPECT_THAT(read.grain.shape.spheres, SizeIs(1));
@@ -105,7 +111,7 @@ TEST_F(StudyRecordTest, PicturesOfOneHeapCountOnceAndShareTheirCamera) {
                                   picture("b1", "", 26)};
   write_study_record(saved(), written);
   const StudyRecord read = read_study_record(saved());
-  const dem::Measured heap = dem::measured_in(read.study, dem::Experiment::heap);
+  const dem::Measured heap = dem::measured_in(read.study, dem::experiment_of<dem::HeapProtocol>());
   EXPECT_THAT(heap.values, ElementsAre(24, 26));
   ASSERT_THAT(heap.systematic, SizeIs(1));
   EXPECT_EQ(heap.systematic[0].name, "camera");

@@ -18,6 +18,9 @@
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_problem.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/roll.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
@@ -142,9 +145,10 @@ TEST_F(StudyRun, ARunIsNamedAfterThePartsOfItsBenchAlone) {
     static const NamedGrain grain(grain_of(plain));
     return description_of(spec_of(study, experiment, grain, 0), 1);
   };
-  EXPECT_EQ(text(plain, dem::Experiment::drop), text(inclined, dem::Experiment::drop));
-  EXPECT_THAT(text(plain, dem::Experiment::roll), Not(HasSubstr("incline\"")));
-  EXPECT_THAT(text(inclined, dem::Experiment::roll),
+  EXPECT_EQ(text(plain, dem::experiment_of<dem::DropProtocol>()),
+            text(inclined, dem::experiment_of<dem::DropProtocol>()));
+  EXPECT_THAT(text(plain, dem::experiment_of<dem::RollProtocol>()), Not(HasSubstr("incline\"")));
+  EXPECT_THAT(text(inclined, dem::experiment_of<dem::RollProtocol>()),
               AllOf(HasSubstr(R"("incline":{"density_kg_m3":7850.0,"young_modulus_pa":10000000.0)"),
                     HasSubstr(R"("particle_incline":{"restitution":0.5)")));
 }
@@ -182,7 +186,7 @@ TEST_F(StudyRun, AnUnknownScatterIsAssumed) {
   const dem::Study study = read({"experiment.drop.measured = { mean = 25, n = 5 }"});
   const StudyProblem made = problem_of(study, grain_of(study), budget_named("quick"));
   EXPECT_EQ(made.problem.observables[0].assumed_sd_fraction,
-            dem::entry_of(dem::Experiment::drop).usual_scatter);
+            dem::experiment_of<dem::DropProtocol>()->usual_scatter);
 }
 
 TEST_F(StudyRun, ADropIsTheMeanOfItsGrains) {
@@ -409,8 +413,8 @@ TEST_F(StudyRun, GrainsOfAStifferRunAreNeverStifferThanRealOnes) {
 TEST_F(StudyRun, AStudyAsksForTheRunsThatASingleExperimentMakes) {
   const dem::Study single = read(
       {"contact.particle_wall.restitution = 0.5", "contact.particle_wall.sliding_friction = 0.4"});
-  const RunSpec alone =
-      spec_of(single, dem::Experiment::drop, NamedGrain(grain_of(single)), kHeapViews);
+  const RunSpec alone = spec_of(single, dem::experiment_of<dem::DropProtocol>(),
+                                NamedGrain(grain_of(single)), kHeapViews);
   const Job job{.experiment = "drop", .values = {.5, .4}, .seed = 3};
   EXPECT_EQ(key_of(alone, job.seed), key_of(simulator_of(read()).spec(job), job.seed));
   const RunStore folder(folder_.path() / "single");
@@ -425,7 +429,8 @@ TEST_F(StudyRun, SharedDampingMakesOtherRuns) {
                                    "contact.particle_wall.sliding_friction = 0.4",
                                    "contact.damping = \"" + damping + "\""});
     const NamedGrain grain(grain_of(study));
-    return description_of(spec_of(study, dem::Experiment::drop, grain, kHeapViews), 3);
+    return description_of(
+        spec_of(study, dem::experiment_of<dem::DropProtocol>(), grain, kHeapViews), 3);
   };
   EXPECT_THAT(described("per_contact"), Not(HasSubstr("damping")));
   EXPECT_THAT(described("shared"), HasSubstr("\"damping\":\"shared\""));

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/engine/unstable_run.h"
+#include "dem/experiment/draw_down.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

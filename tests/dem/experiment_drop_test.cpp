@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/drop.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

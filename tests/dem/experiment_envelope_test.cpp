@@ -14,13 +14,13 @@ namespace {
 
 using testing::sphere_cone;
 
-double width_m(const HeapEnvelope& envelope) {
+double width_m(const Envelope& envelope) {
   return envelope.column_m * static_cast<double>(envelope.height_m.size());
 }
 
 TEST(HeapEnvelope, IsTheUpperSideOfASphere) {
   const std::vector<ClumpSphere> sphere = {{.centre = {.1, .2, .01}, .radius = .01}};
-  for (const HeapEnvelope& envelope : heap_envelopes(sphere, 4)) {
+  for (const Envelope& envelope : heap_envelopes(sphere, 4)) {
     const std::vector<double>& height = envelope.height_m;
     const auto middle = std::max_element(height.begin(), height.end()) - height.begin();
     EXPECT_NEAR(width_m(envelope), .02, 1.1 * envelope.column_m);
@@ -49,7 +49,7 @@ TEST(HeapEnvelope, FirstLooksAlongYThenRoundCounterClockwise) {
     }
     return spheres;
   };
-  const auto shortest = [](const std::vector<HeapEnvelope>& envelopes) {
+  const auto shortest = [](const std::vector<Envelope>& envelopes) {
     return std::min_element(envelopes.begin(), envelopes.end(),
                             [](const auto& a, const auto& b) { return width_m(a) < width_m(b); })
         ->azimuth_rad;
@@ -67,7 +67,7 @@ TEST(HeapEnvelope, LeavesGrainsBeyondAGapOut) {
     const double turn = 2 * std::numbers::pi * k / 20;
     heap.push_back({.centre = {.5 * std::cos(turn), .5 * std::sin(turn), .02}, .radius = .02});
   }
-  const HeapEnvelope envelope = heap_envelopes(heap, 1).front();
+  const Envelope envelope = heap_envelopes(heap, 1).front();
   EXPECT_NEAR(width_m(envelope), alone, 2 * envelope.column_m);
 }
 

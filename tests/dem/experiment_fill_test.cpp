@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/engine/unstable_run.h"
+#include "dem/experiment/fill.h"
 #include "dem/experiment/filling.h"
 #include "tests/dem/experiment_model.h"
 

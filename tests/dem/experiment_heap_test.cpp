@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/heap.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

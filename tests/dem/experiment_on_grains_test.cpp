@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 
 #include "dem/engine/unstable_run.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/tilt_on_grains.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

@@ -4,7 +4,12 @@
 
 #include <gmock/gmock.h>
 
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/model_setup.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

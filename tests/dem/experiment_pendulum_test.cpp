@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "dem/engine/unstable_run.h"
+#include "dem/experiment/pendulum.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

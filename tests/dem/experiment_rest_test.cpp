@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "dem/experiment/heap.h"
 #include "dem/experiment/model_setup.h"
 #include "dem/experiment/rest_test.h"
 #include "tests/dem/experiment_model.h"

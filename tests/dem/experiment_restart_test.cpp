@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "dem/experiment/heap.h"
+#include "dem/experiment/roll.h"
 #include "dem/state/state_file.h"
 #include "tests/dem/experiment_model.h"
 
@@ -25,12 +27,12 @@ HeapProtocol tube_on_small_plate() {
 std::string bits_of_end(const Repeat& repeat) { return state_text(*repeat.state, "{}"); }
 
 /// Some of the restart points of each stage, as a file would hold them.
-std::map<HeapStage, std::vector<HeapRestart>> restart_points(Repeat& whole) {
-  std::map<HeapStage, std::vector<HeapRestart>> points;
+std::map<int, std::vector<Restart>> restart_points(Repeat& whole) {
+  std::map<int, std::vector<Restart>> points;
   int looks = 0;
   RunRecord record;
   record.is_restart_due = [&] { return ++looks % 7 == 0; };
-  record.save_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
+  record.save_restart = [&](const Simulation& simulation, const RunProgress& progress) {
     points[progress.stage].push_back({simulation.setup(), simulation.checkpoint(), progress});
   };
   whole = run_heap(test::soft_bench(), tube_on_small_plate(), 1, {}, record);
@@ -40,10 +42,10 @@ std::map<HeapStage, std::vector<HeapRestart>> restart_points(Repeat& whole) {
 TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
   Repeat whole;
   const auto points = restart_points(whole);
-  for (const HeapStage stage :
+  for (const int stage :
        {HeapStage::rain, HeapStage::settle_in_tube, HeapStage::lift, HeapStage::settle}) {
     ASSERT_TRUE(points.contains(stage)) << "stage " << static_cast<int>(stage);
-    const std::vector<HeapRestart>& of_stage = points.at(stage);
+    const std::vector<Restart>& of_stage = points.at(stage);
     Model model = test::soft_bench();
     model.threads = stage == HeapStage::lift ? 2 : 1;
     const Repeat resumed =
@@ -62,9 +64,9 @@ TEST(HeapRestart, GoesOnFromWithinALongStretch) {
   model.stiffness_factor = .05;
   Repeat whole;
   RunRecord record;
-  std::vector<HeapRestart> within;
+  std::vector<Restart> within;
   record.is_restart_due = [] { return true; };
-  record.save_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
+  record.save_restart = [&](const Simulation& simulation, const RunProgress& progress) {
     if (progress.steps_left > 0) {
       within.push_back({simulation.setup(), simulation.checkpoint(), progress});
     }
@@ -78,7 +80,7 @@ TEST(HeapRestart, GoesOnFromWithinALongStretch) {
 TEST(HeapRestart, IsKeptWhenTheRunIsBrokenOff) {
   int saved = 0;
   RunRecord record;
-  record.save_restart = [&](const Simulation&, const HeapProgress&) { ++saved; };
+  record.save_restart = [&](const Simulation&, const RunProgress&) { ++saved; };
   EXPECT_THROW(run_heap(
                    test::soft_bench(), tube_on_small_plate(), 1,
                    [](double, const Simulation&) { return false; }, record),

@@ -1,4 +1,4 @@
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,12 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/pendulum.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
+#include "dem/experiment/tilt_on_grains.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -17,18 +23,24 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(ExperimentTable, HasEachExperimentInItsPlace) {
-  ASSERT_EQ(all_experiments().size(), std::variant_size_v<Protocol>);
+  int pictured = 0;
   for (const ExperimentEntry& entry : all_experiments()) {
-    EXPECT_EQ(&entry_of(entry.experiment), &entry) << entry.name;
-    EXPECT_EQ(&entry_of(entry.usual), &entry) << entry.name;
+    EXPECT_EQ(&entry_of(entry.usual), &entry) << "each has a protocol of its own: " << entry.name;
+    pictured += entry.is_pictured ? 1 : 0;
+    EXPECT_EQ(entry.is_pictured, &entry == &pictured_experiment()) << entry.name;
+    EXPECT_EQ(entry.is_pictured, entry.camera != nullptr) << entry.name;
+    EXPECT_EQ(entry.resume != nullptr, !entry.stages.empty()) << entry.name;
+    EXPECT_NE(entry.fall_m, nullptr) << entry.name;
     EXPECT_EQ(&experiment_named(entry.name), &entry);
-    EXPECT_EQ(name_of(entry.experiment), entry.name);
+    EXPECT_EQ(name_of(&entry), entry.name);
     EXPECT_THAT(entry.unit, ::testing::AnyOf("mm", "deg", "kg/m3", "%")) << entry.name;
   }
-  EXPECT_EQ(
-      experiment_names(),
-      "drop, tilt, roll, heap, drop_on_grains, tilt_on_grains, roll_on_grains, fill, pendulum "
-      "or draw_down");
+  EXPECT_EQ(pictured, 1) << "a study's pictures do not say of which experiment they are";
+  EXPECT_THROW(entry_of(Protocol()), std::logic_error);
+  EXPECT_THAT(experiment_names(), ::testing::StartsWith("drop, tilt, roll, heap, "));
+  const auto is_default = [](const ExperimentEntry& entry) { return entry.is_default; };
+  EXPECT_EQ(experiment_names({.is_meant = is_default, .before = "[", .after = "]"}),
+            "[drop], [tilt], [roll] or [heap]");
   EXPECT_THAT(error_of([] { experiment_named("spin"); }),
               HasSubstr("experiment spin: unknown experiment. Fix: drop,"));
 }
@@ -50,7 +62,7 @@ TEST(ExperimentTable, KeysOfAProtocolAreItsNumbers) {
   };
   EXPECT_FALSE(value("grains")) << "as many as fit";
   EXPECT_FALSE(value("camera_distance_mm")) << "far away";
-  std::get<HeapProtocol>(heap).camera_distance_m = 1.5;
+  heap.as<HeapProtocol>().camera_distance_m = 1.5;
   EXPECT_DOUBLE_EQ(value("camera_distance_mm").value(), 1500);
 }
 
@@ -73,15 +85,15 @@ TEST(ExperimentTable, ErrorsNameTheKeyOfTheStudyAndWhetherItIsTheDefault) {
 }
 
 TEST(ExperimentTable, ATiltDependsOnSlidingFrictionAlone) {
-  const ExperimentEntry& tilt = entry_of(Experiment::tilt);
+  const ExperimentEntry& tilt = *experiment_of<TiltProtocol>();
   EXPECT_TRUE(depends_on(tilt, "contact.particle_wall.sliding_friction"));
   EXPECT_FALSE(depends_on(tilt, "contact.particle_wall.restitution"));
   EXPECT_FALSE(tilt.is_stochastic);
-  EXPECT_FALSE(has_grain_contacts(Experiment::roll));
-  EXPECT_TRUE(has_grain_contacts(Experiment::heap));
-  EXPECT_TRUE(has_grain_contacts(Experiment::roll_on_grains));
+  EXPECT_FALSE(has_grain_contacts(experiment_of<RollProtocol>()));
+  EXPECT_TRUE(has_grain_contacts(experiment_of<HeapProtocol>()));
+  EXPECT_TRUE(has_grain_contacts(experiment_of<GrainRollProtocol>()));
   EXPECT_FALSE(
-      depends_on(entry_of(Experiment::roll_on_grains), "contact.particle_wall.rolling_friction"));
+      depends_on(*experiment_of<GrainRollProtocol>(), "contact.particle_wall.rolling_friction"));
 }
 
 TEST(ExperimentTable, EveryCoefficientIsToldByAnExperiment) {
@@ -95,8 +107,9 @@ TEST(ExperimentTable, EveryCoefficientIsToldByAnExperiment) {
 }
 
 TEST(ExperimentTable, CostsGrowWithStiffnessAndGrains) {
-  const std::set<Experiment> of_impacts = {Experiment::drop, Experiment::drop_on_grains,
-                                           Experiment::pendulum};
+  const std::set<Experiment> of_impacts = {experiment_of<DropProtocol>(),
+                                           experiment_of<GrainDropProtocol>(),
+                                           experiment_of<PendulumProtocol>()};
   Model model = test::sphere_bench();
   for (const ExperimentEntry& entry : all_experiments()) {
     const double cost_s = entry.cost_s(model, entry.usual);
@@ -105,10 +118,10 @@ TEST(ExperimentTable, CostsGrowWithStiffnessAndGrains) {
     soft.stiffness_factor = .01;
     // Impacts, and with them time steps, last as E^(-2/5) (Hertz). Where nothing but impacts is
     // computed, there are as many steps.
-    const double ratio = of_impacts.contains(entry.experiment) ? 1 : std::pow(.01, .4);
+    const double ratio = of_impacts.contains(&entry) ? 1 : std::pow(.01, .4);
     EXPECT_NEAR(entry.cost_s(soft, entry.usual) / cost_s, ratio, 1e-6) << entry.name;
   }
-  const ExperimentEntry& heap = entry_of(Experiment::heap);
+  const ExperimentEntry& heap = *experiment_of<HeapProtocol>();
   EXPECT_DOUBLE_EQ(heap.cost_s(model, HeapProtocol{.grains = 100}),
                    2 * heap.cost_s(model, HeapProtocol{.grains = 50}));
 }

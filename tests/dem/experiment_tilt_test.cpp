@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "dem/experiment/tilt.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

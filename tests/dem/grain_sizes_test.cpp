@@ -4,9 +4,11 @@
 
 #include <gmock/gmock.h>
 
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
 #include "dem/shape/clump/clump_shape.h"
 #include "dem/state/state_file.h"
-#include "dem/study/experiment_table.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {
@@ -90,11 +92,11 @@ TEST(HeapOfManySizes, IsMadeOfAllOfThem) {
 
 TEST(HeapOfManySizes, SameSeedSameBytesOnAnyNumberOfThreadsAndAfterAnInterruption) {
   Model model = of_many_sizes();
-  std::vector<HeapRestart> points;
+  std::vector<Restart> points;
   int looks = 0;
   RunRecord record;
   record.is_restart_due = [&] { return ++looks % 7 == 0; };
-  record.save_restart = [&](const Simulation& simulation, const HeapProgress& progress) {
+  record.save_restart = [&](const Simulation& simulation, const RunProgress& progress) {
     points.push_back({simulation.setup(), simulation.checkpoint(), progress});
   };
   const Repeat whole = run_heap(model, tube_for_many_sizes(), 1, {}, record);

@@ -6,6 +6,9 @@
 
 #include <gmock/gmock.h>
 
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/roll.h"
 #include "tests/dem/study_file.h"
 
 namespace repose::dem {
@@ -54,10 +57,10 @@ TEST_F(StudyFile, StatedUncertaintiesAreThoseOfItsOwnKeys) {
   EXPECT_FALSE(inputs.back().is_assumed);
   EXPECT_EQ(inputs[2].unit, "mm");
   EXPECT_NEAR(inputs[2].value, 17.46, 1e-9);
-  EXPECT_TRUE(has_effect("experiment.roll.incline_deg", Experiment::roll));
-  EXPECT_FALSE(has_effect("experiment.roll.incline_deg", Experiment::drop));
-  EXPECT_FALSE(has_effect("wall.incline.young_modulus_pa", Experiment::drop));
-  EXPECT_TRUE(has_effect("particle.density_kg_m3", Experiment::drop));
+  EXPECT_TRUE(has_effect("experiment.roll.incline_deg", experiment_of<RollProtocol>()));
+  EXPECT_FALSE(has_effect("experiment.roll.incline_deg", experiment_of<DropProtocol>()));
+  EXPECT_FALSE(has_effect("wall.incline.young_modulus_pa", experiment_of<DropProtocol>()));
+  EXPECT_TRUE(has_effect("particle.density_kg_m3", experiment_of<DropProtocol>()));
   EXPECT_THAT(inputs_taken_as_exact(study), AllOf(Contains("experiment.roll.release_mm"),
                                                   Not(Contains("experiment.roll.incline_deg"))));
   const auto down =

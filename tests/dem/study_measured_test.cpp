@@ -4,6 +4,10 @@
 
 #include <gmock/gmock.h>
 
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/tilt.h"
 #include "dem/study/study.h"
 #include "tests/dem/study_file.h"
 
@@ -17,8 +21,8 @@ using ::testing::HasSubstr;
 TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
   const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
   const Study study = read(heap + "base_radius_mm = { mean = 120, sd = 4, n = 10 }\n");
-  ASSERT_EQ(measured_in(study, Experiment::heap).also.size(), 1U);
-  const MeasuredReading reading = measured_in(study, Experiment::heap).also.front();
+  ASSERT_EQ(measured_in(study, experiment_of<HeapProtocol>()).also.size(), 1U);
+  const MeasuredReading reading = measured_in(study, experiment_of<HeapProtocol>()).also.front();
   EXPECT_EQ(reading.name, "base_radius_mm");
   EXPECT_EQ(reading.mean, 120);
   EXPECT_EQ(reading.sd, 4);
@@ -29,38 +33,39 @@ TEST_F(StudyFile, OtherReadingsMayBeMeasuredToo) {
 TEST_F(StudyFile, SaysHowFarBenchAndSimulationMayBeApart) {
   const std::string tilt =
       kStudy + "[experiment.tilt]\nmeasured = { values = [9, 10], tolerance = ";
-  EXPECT_EQ(measured_in(read(tilt + "1.5 }\n"), Experiment::tilt).tolerance, 1.5);
-  EXPECT_FALSE(measured_in(read(kStudy), Experiment::drop).tolerance) << "unless told";
+  EXPECT_EQ(measured_in(read(tilt + "1.5 }\n"), experiment_of<TiltProtocol>()).tolerance, 1.5);
+  EXPECT_FALSE(measured_in(read(kStudy), experiment_of<DropProtocol>()).tolerance) << "unless told";
   EXPECT_THAT(errors(tilt + "0 }\n"), HasSubstr("experiment.tilt.measured.tolerance = 0"));
   const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
   const Study study = read(heap + "height_mm = { mean = 40, tolerance = 3 }\n");
-  EXPECT_EQ(measured_in(study, Experiment::heap).also.front().tolerance, 3);
+  EXPECT_EQ(measured_in(study, experiment_of<HeapProtocol>()).also.front().tolerance, 3);
 }
 
 TEST_F(StudyFile, SaysWhatAllReadingsShare) {
   const std::string tilt = kStudy + "[experiment.tilt]\nmeasured = { values = [9, 10], bias_sd = ";
-  const Measured measured = measured_in(read(tilt + "0.3 }\n"), Experiment::tilt);
+  const Measured measured = measured_in(read(tilt + "0.3 }\n"), experiment_of<TiltProtocol>());
   ASSERT_EQ(measured.systematic.size(), 1U);
   EXPECT_EQ(measured.systematic[0].name, "bias_sd");
   EXPECT_EQ(measured.systematic[0].sd, .3);
-  EXPECT_TRUE(measured_in(read(tilt + "0 }\n"), Experiment::tilt).systematic.empty());
+  EXPECT_TRUE(measured_in(read(tilt + "0 }\n"), experiment_of<TiltProtocol>()).systematic.empty());
   EXPECT_THAT(errors(tilt + "-1 }\n"), HasSubstr("experiment.tilt.measured.bias_sd = -1"));
   EXPECT_THAT(errors(tilt + "nan }\n"), HasSubstr("experiment.tilt.measured.bias_sd = nan"));
   const std::string heap = kStudy + "[experiment.heap]\n[experiment.heap.also_measured]\n";
   const Study study = read(heap + "height_mm = { mean = 40, bias_sd = 0.5 }\n");
-  ASSERT_EQ(measured_in(study, Experiment::heap).also.front().systematic.size(), 1U);
-  EXPECT_EQ(measured_in(study, Experiment::heap).also.front().systematic[0].sd, .5);
+  ASSERT_EQ(measured_in(study, experiment_of<HeapProtocol>()).also.front().systematic.size(), 1U);
+  EXPECT_EQ(measured_in(study, experiment_of<HeapProtocol>()).also.front().systematic[0].sd, .5);
 }
 
 TEST_F(StudyFile, GroupsPicturesOfOneHeap) {
   const std::string heap = kStudy + "[experiment.heap]\nmeasured = { pictures = ";
   const Measured measured = measured_in(
       read(heap + R"([{ heap = "a", files = ["a*.jpg", "x*.jpg"] }, "b*.jpg"] })" + "\n"),
-      Experiment::heap);
+      experiment_of<HeapProtocol>());
   ASSERT_EQ(measured.pictures.size(), 3U);
   EXPECT_EQ(measured.pictures[1].filename(), "x*.jpg");
   EXPECT_THAT(measured.picture_heaps, ::testing::ElementsAre("a", "a", ""));
-  EXPECT_TRUE(measured_in(read(heap + "[\"b*.jpg\"] }\n"), Experiment::heap).picture_heaps.empty());
+  EXPECT_TRUE(measured_in(read(heap + "[\"b*.jpg\"] }\n"), experiment_of<HeapProtocol>())
+                  .picture_heaps.empty());
   EXPECT_THAT(
       errors(heap +
              R"([{ heap = "a", files = ["a*.jpg"] }, { heap = "a", files = ["b*.jpg"] }] })"),
@@ -76,7 +81,7 @@ TEST_F(StudyFile, GroupsPicturesOfOneHeap) {
 TEST_F(StudyFile, SaysByWhichDefinitionAHeapWasMeasured) {
   const std::string heap = kStudy + "[experiment.heap]\n";
   const auto definition = [](const Study& study) {
-    return study.experiments.at(Experiment::heap).definition;
+    return study.experiments.at(experiment_of<HeapProtocol>()).definition;
   };
   EXPECT_EQ(definition(read(heap)), "") << "not said";
   EXPECT_EQ(definition(read(heap + "definition = \"whole_flank\"\n")), "whole_flank");
@@ -116,8 +121,8 @@ TEST_F(StudyFile, ASheetOfReadingsBelongsToTheStudy) {
   const std::string text = kStudy + "measured = { readings = \"drops.csv\", tolerance = 2 }\n";
   folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n"));
   const Study study = read(text);
-  EXPECT_EQ(measured_in(study, Experiment::drop).sheet, folder_.path() / "drops.csv");
-  EXPECT_EQ(measured_in(study, Experiment::drop).tolerance, 2);
+  EXPECT_EQ(measured_in(study, experiment_of<DropProtocol>()).sheet, folder_.path() / "drops.csv");
+  EXPECT_EQ(measured_in(study, experiment_of<DropProtocol>()).tolerance, 2);
   EXPECT_THAT(files_of(study), Contains(folder_.path() / "drops.csv"));
   EXPECT_EQ(read(text).hash, study.hash);
   folder_.write("drops.csv", std::string("drop_mm,rebound_mm\n500,9\n500,10\n"));

@@ -2,7 +2,13 @@
 
 #include <gmock/gmock.h>
 
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 #include "tests/dem/study_file.h"
 
 namespace repose::dem {
@@ -44,20 +50,22 @@ TEST_F(StudyFile, APartMayBeOfAnotherMaterialThanThePlate) {
 
 TEST_F(StudyFile, AnExperimentHasThePartsOfItsBench) {
   const Study study = read(kParts, {"experiment.roll={}"});
-  for (const Experiment experiment : {Experiment::heap, Experiment::fill}) {
+  for (const Experiment experiment :
+       {experiment_of<HeapProtocol>(), experiment_of<FillProtocol>()}) {
     EXPECT_TRUE(model_for(study, experiment).parts.contains(WallPart::tube));
     EXPECT_THAT(open_coefficients(study, experiment),
                 ElementsAre("contact.particle_tube.sliding_friction"));
   }
-  for (const Experiment experiment : {Experiment::drop, Experiment::tilt, Experiment::roll}) {
+  for (const Experiment experiment : {experiment_of<DropProtocol>(), experiment_of<TiltProtocol>(),
+                                      experiment_of<RollProtocol>()}) {
     EXPECT_THAT(model_for(study, experiment).parts, IsEmpty());
     EXPECT_THAT(open_coefficients(study, experiment), IsEmpty());
-    EXPECT_FALSE(depends_on(entry_of(experiment), "contact.particle_tube.sliding_friction"));
+    EXPECT_FALSE(depends_on(*experiment, "contact.particle_tube.sliding_friction"));
   }
-  EXPECT_TRUE(depends_on(entry_of(Experiment::heap), "contact.particle_tube.sliding_friction"));
-  EXPECT_TRUE(depends_on(entry_of(Experiment::roll), "contact.particle_incline.restitution"));
+  EXPECT_TRUE(depends_on(*experiment_of<HeapProtocol>(), "contact.particle_tube.sliding_friction"));
+  EXPECT_TRUE(depends_on(*experiment_of<RollProtocol>(), "contact.particle_incline.restitution"));
   EXPECT_TRUE(
-      depends_on(entry_of(Experiment::draw_down), "contact.particle_pane.rolling_friction"));
+      depends_on(*experiment_of<DrawDownProtocol>(), "contact.particle_pane.rolling_friction"));
 }
 
 TEST_F(StudyFile, APartHasBothMaterialAndCoefficients) {

@@ -9,6 +9,12 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/heap.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 #include "tests/dem/study_file.h"
 #include "tests/support/places.h"
 
@@ -16,6 +22,7 @@ namespace repose::dem {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -36,9 +43,9 @@ TEST_F(StudyFile, TheSmallestStudyHasTheUsualValues) {
   EXPECT_EQ(study.model.grain_wall.restitution, .31);
   EXPECT_EQ(study.model.grain_grain.sliding_friction, .21);
   EXPECT_DOUBLE_EQ(study.protocol<DropProtocol>().height_m, .5);
-  EXPECT_FALSE(has_protocol(study, Experiment::heap));
-  EXPECT_TRUE(measured_in(study, Experiment::drop).values.empty() &&
-              !measured_in(study, Experiment::drop).mean);
+  EXPECT_FALSE(has_protocol(study, experiment_of<HeapProtocol>()));
+  EXPECT_TRUE(measured_in(study, experiment_of<DropProtocol>()).values.empty() &&
+              !measured_in(study, experiment_of<DropProtocol>()).mean);
   EXPECT_EQ(study.replicates, 1);
   EXPECT_EQ(study.seed, 1U);
   EXPECT_FALSE(study.threads);
@@ -56,8 +63,8 @@ TEST_F(StudyFile, GrainsMayHaveAColourForPictures) {
 TEST_F(StudyFile, SizesThatVaryDoSoInBulksOnly) {
   const std::string heap = "\n[experiment.heap]\n";
   const Study study = read(kStudy + heap, {"particle.size_sd_percent = 4.3"});
-  EXPECT_DOUBLE_EQ(model_for(study, Experiment::heap).size_cv, .043);
-  EXPECT_EQ(model_for(study, Experiment::drop).size_cv, 0);
+  EXPECT_DOUBLE_EQ(model_for(study, experiment_of<HeapProtocol>()).size_cv, .043);
+  EXPECT_EQ(model_for(study, experiment_of<DropProtocol>()).size_cv, 0);
   EXPECT_EQ(read(kStudy + heap).model.size_cv, 0);
   EXPECT_THAT(errors(kStudy, {"particle.size_sd_percent = 43"}),
               HasSubstr("particle.size_sd_percent"));
@@ -169,11 +176,11 @@ threads = 3
   EXPECT_TRUE(std::isnan(study.model.grain_wall.rolling_friction)) << "to be found";
   EXPECT_DOUBLE_EQ(study.protocol<DropProtocol>().height_m, .25);
   EXPECT_EQ(study.protocol<DropProtocol>().grains, 3);
-  EXPECT_EQ(model_for(study, Experiment::drop).stiffness_factor, .5);
-  EXPECT_THAT(measured_in(study, Experiment::drop).values, ElementsAre(9, 9.5));
+  EXPECT_EQ(model_for(study, experiment_of<DropProtocol>()).stiffness_factor, .5);
+  EXPECT_THAT(measured_in(study, experiment_of<DropProtocol>()).values, ElementsAre(9, 9.5));
   EXPECT_EQ(study.protocol<TiltProtocol>().bonded, 3);
   EXPECT_EQ(study.protocol<TiltProtocol>().start_deg, 5);
-  EXPECT_EQ(measured_in(study, Experiment::tilt).count, 10);
+  EXPECT_EQ(measured_in(study, experiment_of<TiltProtocol>()).count, 10);
   EXPECT_DOUBLE_EQ(study.protocol<RollProtocol>().release_m, .1);
   EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().tube_diameter_m, .08);
   EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().lift_speed_m_s, .02);
@@ -181,7 +188,7 @@ threads = 3
   EXPECT_EQ(study.protocol<HeapProtocol>().grains, 50);
   EXPECT_EQ(study.protocol<HeapProtocol>().camera_distance_m, 1.5);
   EXPECT_DOUBLE_EQ(study.protocol<HeapProtocol>().camera_height_m, .06);
-  EXPECT_THAT(measured_in(study, Experiment::heap).pictures,
+  EXPECT_THAT(measured_in(study, experiment_of<HeapProtocol>()).pictures,
               ElementsAre(folder_.path() / "nut.stl"));
   EXPECT_EQ(study.model.timestep_s, 1e-6);
   EXPECT_EQ(study.replicates, 4);
@@ -302,7 +309,7 @@ TEST_F(StudyFile, WhatIsSoughtMayHaveAValueForRunsBefore) {
   EXPECT_EQ(restitution.known_mean, .35);
   EXPECT_EQ(restitution.known_sd, .1);
   EXPECT_EQ(study.model.grain_wall.restitution, .3);
-  EXPECT_THAT(open_coefficients(study, Experiment::drop), IsEmpty());
+  EXPECT_THAT(open_coefficients(study, experiment_of<DropProtocol>()), IsEmpty());
   EXPECT_FALSE(study.particle_wall.sliding_friction.is_free());
 }
 
@@ -379,7 +386,7 @@ TEST_F(StudyFile, SettingsReplaceAndAddValues) {
   EXPECT_EQ(study.particle_wall.restitution.min, .2);
   EXPECT_EQ(study.particle_wall.restitution.max, .5);
   EXPECT_EQ(study.protocol<HeapProtocol>().grains, 30);
-  EXPECT_TRUE(has_protocol(study, Experiment::drop)) << "the file's own sections stay";
+  EXPECT_TRUE(has_protocol(study, experiment_of<DropProtocol>())) << "the file's own sections stay";
   EXPECT_EQ(study.model.rolling, RollingModel::none);
   EXPECT_EQ(study.model.damping, DampingModel::shared);
   EXPECT_EQ(study.seed, 7U) << "the last one counts";
@@ -395,11 +402,12 @@ TEST_F(StudyFile, RestitutionMayDependOnTheSpeed) {
   EXPECT_EQ(known.model.grain_grain.restitution_exponent, 0);
   const Study sought = read(kStudy, {exponent + "{ min = 0, max = 0.25 }", speed});
   EXPECT_TRUE(sought.particle_wall.restitution_exponent.is_free());
-  EXPECT_THAT(open_coefficients(sought, Experiment::drop),
+  EXPECT_THAT(open_coefficients(sought, experiment_of<DropProtocol>()),
               Contains("contact.particle_wall.restitution_exponent"));
-  EXPECT_TRUE(depends_on(entry_of(Experiment::drop), "contact.particle_wall.restitution_exponent"));
+  EXPECT_TRUE(
+      depends_on(*experiment_of<DropProtocol>(), "contact.particle_wall.restitution_exponent"));
   EXPECT_FALSE(
-      depends_on(entry_of(Experiment::tilt), "contact.particle_wall.restitution_exponent"));
+      depends_on(*experiment_of<TiltProtocol>(), "contact.particle_wall.restitution_exponent"));
   EXPECT_THAT(errors(kStudy, {exponent + "0.1"}),
               HasSubstr("restitution_exponent is given without restitution_speed_m_s"));
   EXPECT_THAT(errors(kStudy, {speed}),
@@ -456,7 +464,7 @@ TEST_F(StudyFile, ADropMayHaveALowerHeightToo) {
   const std::string also = "experiment.drop.also_measured={low_rebound_mm={mean=15,sd=1,n=5}}";
   const Study study = read(kStudy, {"experiment.drop.low_height_mm=50", also});
   EXPECT_EQ(study.protocol<DropProtocol>().low_height_m, .05);
-  EXPECT_EQ(measured_in(study, Experiment::drop).also.at(0).name, "low_rebound_mm");
+  EXPECT_EQ(measured_in(study, experiment_of<DropProtocol>()).also.at(0).name, "low_rebound_mm");
   EXPECT_FALSE(read(kStudy).protocol<DropProtocol>().low_height_m);
   EXPECT_THAT(errors(kStudy, {also}), HasSubstr("needs experiment.drop.low_height_mm"));
   EXPECT_THAT(errors(kStudy, {"experiment.drop.low_height_mm=0"}),
@@ -466,13 +474,15 @@ TEST_F(StudyFile, ADropMayHaveALowerHeightToo) {
 TEST_F(StudyFile, OpenCoefficientsAreNamedWhereTheyMatter) {
   const Study study = read(kStudy, {"contact.particle_wall.restitution = { min = 0.1, max = 0.5 }",
                                     "contact.particle_particle.sliding_friction = {min=0,max=1}"});
-  EXPECT_THAT(open_coefficients(study, Experiment::drop),
+  EXPECT_THAT(open_coefficients(study, experiment_of<DropProtocol>()),
               ElementsAre("contact.particle_wall.restitution"));
-  EXPECT_THAT(open_coefficients(study, Experiment::heap),
+  EXPECT_THAT(open_coefficients(study, experiment_of<HeapProtocol>()),
               ElementsAre("contact.particle_wall.restitution",
                           "contact.particle_particle.sliding_friction"));
-  EXPECT_FALSE(std::isnan(model_for(study, Experiment::roll).grain_grain.sliding_friction));
-  EXPECT_TRUE(std::isnan(model_for(study, Experiment::heap).grain_grain.sliding_friction));
+  EXPECT_FALSE(
+      std::isnan(model_for(study, experiment_of<RollProtocol>()).grain_grain.sliding_friction));
+  EXPECT_TRUE(
+      std::isnan(model_for(study, experiment_of<HeapProtocol>()).grain_grain.sliding_friction));
 }
 
 TEST(HazelnutStudy, IsThePublishedOne) {
@@ -480,13 +490,14 @@ TEST(HazelnutStudy, IsThePublishedOne) {
   EXPECT_EQ(study.model.grain_material.density_kg_m3, 851);
   EXPECT_EQ(study.model.grain_wall.restitution, .31);
   EXPECT_EQ(study.model.grain_grain.restitution, .11);
-  EXPECT_EQ(measured_in(study, Experiment::drop).mean, 9.42);
-  EXPECT_EQ(measured_in(study, Experiment::tilt).mean, 22.70);
-  EXPECT_EQ(measured_in(study, Experiment::roll).mean, 322.81);
-  EXPECT_EQ(measured_in(study, Experiment::heap).sd, .72);
+  EXPECT_EQ(measured_in(study, experiment_of<DropProtocol>()).mean, 9.42);
+  EXPECT_EQ(measured_in(study, experiment_of<TiltProtocol>()).mean, 22.70);
+  EXPECT_EQ(measured_in(study, experiment_of<RollProtocol>()).mean, 322.81);
+  EXPECT_EQ(measured_in(study, experiment_of<HeapProtocol>()).sd, .72);
   EXPECT_EQ(study.protocol<HeapProtocol>().grains, 455);
   for (const Experiment experiment :
-       {Experiment::drop, Experiment::tilt, Experiment::roll, Experiment::heap}) {
+       {experiment_of<DropProtocol>(), experiment_of<TiltProtocol>(), experiment_of<RollProtocol>(),
+        experiment_of<HeapProtocol>()}) {
     EXPECT_THAT(open_coefficients(study, experiment), IsEmpty());
   }
 }

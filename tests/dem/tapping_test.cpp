@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "dem/experiment/filling.h"
+#include "dem/experiment/heap.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::dem {

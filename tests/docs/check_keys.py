@@ -24,12 +24,10 @@ OUTPUTS = {
               "track roll roll_01.avi --released 150 --json -",
               "track tilt tilt_01.avi --json -"],
     "shape": ["shape --size-mm 20,18,17 --density-kg-m3 900 --json -"],
-    "simulate": [f"simulate {name} study.toml --repeats 2 --json -"
-                 for name in ("drop", "roll", "tilt", "tilt_on_grains", "pendulum", "draw_down")]
-    + ["simulate fill study.toml --repeats 2 --set experiment.fill.taps=1 --json -"]
-    + ["simulate drop study.toml --set contact.particle_wall.restitution_exponent=0.1 "
-       "--set contact.particle_wall.restitution_speed_m_s=1 --json -",
-       "simulate heap study.toml --views 2 --json -"],
+    "simulate": ["simulate fill study.toml --repeats 2 --set experiment.fill.taps=1 --json -",
+                 "simulate drop study.toml --set contact.particle_wall.restitution_exponent=0.1 "
+                 "--set contact.particle_wall.restitution_speed_m_s=1 --json -",
+                 "simulate heap study.toml --views 2 --json -"],
     "render": ["render state/heap_seed_1.vtp --size 640,360 --out heap.png --truth -"],
     "bench": ["bench sliding --set angle_deg=22.1,22.9 --json -"],
     "regress": ["regress runs.csv --response angle_deg --target 23 --json -"],
@@ -38,12 +36,20 @@ OUTPUTS = {
     "calibrate": ["calibrate study.toml --out hazelnut --json -"],
 }
 SECTIONS = ["study", "particle", "wall", "wall.tube", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
-            "experiment", "experiment.drop", "experiment.tilt", "experiment.roll", "experiment.heap",
-            "experiment.drop_on_grains", "experiment.tilt_on_grains", "experiment.roll_on_grains", "experiment.fill",
-            "experiment.fill.also_measured", "experiment.pendulum",
-            "experiment.draw_down", "experiment.draw_down.also_measured",
-            "experiment.heap.measured", "experiment.heap.also_measured",
-            "experiment.drop.measured", "experiment.drop.also_measured", "simulation", "uncertainty"]
+            "experiment", "experiment.heap.measured", "experiment.drop.measured", "simulation", "uncertainty"]
+
+
+def experiments(repose, folder):
+    """Names of all experiments, which the program lists when it does not know one."""
+    done = subprocess.run([repose, "simulate", "unheard_of", "study.toml"], cwd=folder, capture_output=True, text=True)
+    return re.findall(r"\w+", done.stderr.partition("Fix: ")[2].replace(" or ", ", "))
+
+
+def simulations(names):
+    """A run of each that OUTPUTS has not, as the study has it or with the usual numbers."""
+    listed = {command.split()[1] for command in OUTPUTS["simulate"]}
+    return [f"simulate {name} study.toml --repeats 2 --set experiment.{name}.stiffness_factor=1 --json -"
+            for name in names if name not in listed]
 
 
 def keys_in(value):
@@ -85,8 +91,9 @@ def words_under(document, heading=None):
     return words
 
 
-def errors_of_outputs(document, folder, repose):
-    for output, commands in OUTPUTS.items():
+def errors_of_outputs(document, folder, repose, names):
+    outputs = {**OUTPUTS, "simulate": OUTPUTS["simulate"] + simulations(names)}
+    for output, commands in outputs.items():
         heading = output.partition("#")[0]
         known = words_under(document, documents.anchor_of(heading))
         if heading == "calibrate":
@@ -107,14 +114,20 @@ def errors_of_schema(document, root):
         yield f"{document.name}: ## calibrate does not explain {key} of result.schema.json"
 
 
-def errors_of_studies(document, folder, repose):
+def errors_of_studies(document, folder, repose, names):
     """The program lists the keys of a section when one is not among them."""
     words = words_under(document)
-    settings = [word for section in SECTIONS for word in ("--set", f"{section}.unheard_of=1")]
+    experiment_sections = [f"experiment.{name}" for name in names]
+    also = [f"{section}.also_measured" for section in experiment_sections]  # those that have any
+    settings = [word for section in SECTIONS + experiment_sections + also for word in ("--set", f"{section}.unheard_of=1")]
     done = subprocess.run([repose, "simulate", "drop", "study.toml", *settings], cwd=folder,
                           capture_output=True, text=True)
     listed = dict(re.findall(r"keys of \[([\w.]*)\] are ([\w, ]+)", done.stderr))
-    for section in SECTIONS:
+    headings = {found[1] for line in document.lines if (found := documents.HEADING.match(line.text))}
+    for name in names:
+        if f"experiment.{name}" not in headings:
+            yield f"{document.name}: the experiment {name} has no section"
+    for section in SECTIONS + experiment_sections + [section for section in also if section in listed]:
         if section not in listed:
             yield f"repose does not list the keys of [{section}]: {done.stderr}"
             continue
@@ -132,10 +145,11 @@ def main(repose):
         (folder / "drops.toml").write_text(study.partition("[experiment.tilt]")[0], encoding="utf-8")
         subprocess.run([repose, *"simulate heap study.toml --views 0 --out state".split()],
                        cwd=folder, check=True, stdout=subprocess.DEVNULL)
-        errors = [*errors_of_outputs(texts["docs/json.md"], folder, repose),
+        names = experiments(repose, folder)
+        errors = [*errors_of_outputs(texts["docs/json.md"], folder, repose, names),
                   *errors_of_schema(texts["docs/json.md"], root),
-                  *errors_of_studies(texts["docs/study-file.md"], folder, repose)]
-    documents.finish(errors, f"{len(OUTPUTS)} outputs and {len(SECTIONS)} sections of a study")
+                  *errors_of_studies(texts["docs/study-file.md"], folder, repose, names)]
+    documents.finish(errors, f"{len(OUTPUTS)} outputs, {len(SECTIONS)} sections of a study and {len(names)} experiments")
 
 
 main(*sys.argv[1:])

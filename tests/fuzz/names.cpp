@@ -4,6 +4,8 @@
 #include <string_view>
 
 #include "calibrate/export/export.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/tilt.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/fuzz/scratch_file.h"
 
@@ -18,7 +20,7 @@ constexpr std::string_view kActive = "\"'`\\$#&;:!|<>(){}[]*/=\r\t";
 dem::Study study_called(const std::string& name) {
   dem::Study study;
   study.model = dem::test::sphere_bench();
-  study.experiments[dem::Experiment::tilt].protocol = dem::TiltProtocol{};
+  study.experiments[dem::experiment_of<dem::TiltProtocol>()].protocol = dem::TiltProtocol{};
   study.file = name;
   study.hash = name;
   study.model.grain_material.name = name;

@@ -5,6 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "dem/experiment/draw_down.h"
+#include "dem/experiment/drop.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
+#include "dem/experiment/pendulum.h"
+#include "dem/experiment/tilt_on_grains.h"
 #include "tests/dem/experiment_model.h"
 #include "tests/peers/exported.h"
 #include "tests/peers/liggghts.h"
@@ -33,7 +39,7 @@ dem::Study study_of(const dem::Protocol& protocol, double restitution) {
   study.model.grain_wall = {.7, .4, .1};
   study.model.grain_grain = {restitution, .4, .1};
   study.model.rolling = dem::RollingModel::relative_constant_torque;
-  study.experiments[static_cast<Experiment>(protocol.index())].protocol = protocol;
+  study.experiments[&dem::entry_of(protocol)].protocol = protocol;
   return study;
 }
 
@@ -83,7 +89,7 @@ double our_bulk_density(const dem::Study& study, const dem::ClumpShape& grain) {
 
 void expect_filled_alike(const dem::FillProtocol& tube, const dem::ClumpShape& grain) {
   dem::Study study = study_of(tube, .5);
-  study.experiments[Experiment::fill].stiffness_factor = .2;
+  study.experiments[dem::experiment_of<dem::FillProtocol>()].stiffness_factor = .2;
   const double ours = our_bulk_density(study, grain);
   const double theirs =
       reading_of(study, grain, ExportTarget::liggghts, "fill", "bulk_density_kg_m3");
@@ -109,7 +115,8 @@ DrawDowns draw_downs_of(const dem::DrawDownProtocol& boxes, const dem::ClumpShap
                         double stiffness_factor, const std::vector<std::string>& seeds) {
   dem::Study study = study_of(boxes, .1);
   study.model.grain_wall = {.1, .4, .1};
-  study.experiments[Experiment::draw_down].stiffness_factor = stiffness_factor;
+  study.experiments[dem::experiment_of<dem::DrawDownProtocol>()].stiffness_factor =
+      stiffness_factor;
   const auto runs = static_cast<double>(seeds.size());
   DrawDowns means;
   for (std::size_t k = 0; k < seeds.size(); ++k) {

@@ -6,7 +6,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "dem/experiment/drop.h"
 #include "dem/experiment/experiment.h"
+#include "dem/experiment/experiment_table.h"
+#include "dem/experiment/roll.h"
+#include "dem/experiment/tilt.h"
 
 namespace repose::testing {
 namespace {
@@ -109,11 +113,11 @@ dem::Study short_study(dem::RollingModel rolling, double restitution) {
   study.model.wall_material = {"wall", 1000, 1e9, .25};
   study.model.grain_wall = {restitution, .4, .1};
   study.model.rolling = rolling;
-  study.experiments[dem::Experiment::drop].protocol =
+  study.experiments[dem::experiment_of<dem::DropProtocol>()].protocol =
       dem::DropProtocol{.height_m = .05, .grains = 3};
-  study.experiments[dem::Experiment::tilt].protocol =
+  study.experiments[dem::experiment_of<dem::TiltProtocol>()].protocol =
       dem::TiltProtocol{.bonded = 2, .rate_deg_s = 10};
-  study.experiments[dem::Experiment::roll].protocol =
+  study.experiments[dem::experiment_of<dem::RollProtocol>()].protocol =
       dem::RollProtocol{.incline_deg = 10, .release_m = .08};
   return study;
 }

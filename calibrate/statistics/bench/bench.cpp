@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "calibrate/statistics/bench/method.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 
@@ -72,38 +75,42 @@ double sphericity_of(double length, double width, double thickness) {
 
 namespace {
 
-Method method_of(BenchTest test) {
-  switch (test) {
-    case BenchTest::restitution:
-      return restitution_method();
-    case BenchTest::sliding:
-      return sliding_method();
-    case BenchTest::rolling:
-      return rolling_method();
-    case BenchTest::density:
-      return density_method();
-    case BenchTest::young:
-      return young_method();
-    case BenchTest::poisson:
-      return poisson_method();
-    case BenchTest::size:
-      return size_method();
-    case BenchTest::drop_on_grains:
-      return drop_on_grains_method();
-    case BenchTest::tilt_on_grains:
-      return tilt_on_grains_method();
-    case BenchTest::roll_on_grains:
-      return roll_on_grains_method();
-    case BenchTest::fill:
-      return fill_method();
-    case BenchTest::pendulum:
-      return pendulum_method();
-    case BenchTest::draw_down:
-      return draw_down_method();
-    case BenchTest::heap:
-      break;
+/// Of an experiment whose readings are averaged: the settings that its sheet repeats, and its
+/// value.
+Method mean_method(const dem::ExperimentEntry& entry) {
+  const dem::MeanOfReadings& mean = *entry.sheet.mean;
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  std::vector<ReadingColumn> columns;
+  for (const auto& [column, key] : entry.sheet.protocol) {
+    columns.push_back({std::string(column), fmt::format("{} of the experiment", key), -kAny});
   }
-  return heap_method();
+  const auto [from, to, excludes_from, excludes_to] = mean.readable;
+  const double below_zero = from == 0 ? kFromZero : std::nextafter(from, -kAny);
+  columns.push_back({std::string(entry.sheet.value), std::string(mean.what),
+                     excludes_from ? from : below_zero,
+                     excludes_to ? to : std::nextafter(to, kAny)});
+  const std::size_t value = columns.size() - 1;
+  return {.name = std::string(entry.sheet.test),
+          .source = std::string(mean.source),
+          .columns = std::move(columns),
+          .outputs = {{std::string(mean.quantity), std::string(entry.unit),
+                       std::string(entry.value_name), [value](ReadingValues v) { return v[value]; },
+                       from, to}},
+          .error = {},
+          .validity = std::string(mean.validity)};
+}
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> kMethods = [] {
+    std::vector<Method> all = {restitution_method(), sliding_method(),        rolling_method(),
+                               density_method(),     young_method(),          poisson_method(),
+                               size_method(),        drop_on_grains_method(), pendulum_method()};
+    for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+      if (entry.sheet.mean) all.push_back(mean_method(entry));
+    }
+    return all;
+  }();
+  return kMethods;
 }
 
 std::string range_of(const ReadingColumn& column) {
@@ -258,11 +265,26 @@ void note_other_drops(const std::vector<ReadingColumn>& columns,
 
 }  // namespace
 
-std::vector<ReadingColumn> columns_of(BenchTest test) { return method_of(test).columns; }
-
-std::vector<ReadingColumn> optional_columns_of(BenchTest test) {
-  return method_of(test).optional_columns;
+std::vector<std::string> bench_test_names() {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) names.push_back(method.name);
+  return names;
 }
+
+BenchTest bench_test_named(std::string_view name) {
+  for (const Method& method : methods()) {
+    if (method.name == name) return &method;
+  }
+  throw base::InputError({.where = fmt::format("bench test {}", name),
+                          .value = "unknown",
+                          .fix = fmt::format("choose {}.", fmt::join(bench_test_names(), ", "))});
+}
+
+std::string name_of(BenchTest test) { return test->name; }
+
+std::vector<ReadingColumn> columns_of(BenchTest test) { return test->columns; }
+
+std::vector<ReadingColumn> optional_columns_of(BenchTest test) { return test->optional_columns; }
 
 std::vector<double> sample_means(BenchTest test, std::string_view column,
                                  std::span<const BenchReading> readings) {
@@ -278,7 +300,7 @@ std::vector<double> sample_means(BenchTest test, std::string_view column,
 }
 
 void check_readings(BenchTest test, std::span<const BenchReading> readings) {
-  const Method method = method_of(test);
+  const Method& method = *test;
   constexpr std::size_t kMaxErrors = 10;  // a table may have a million rows
   base::Faults errors(kMaxErrors);
   for (const BenchReading& reading : readings) check_reading(method, reading, errors);
@@ -291,7 +313,7 @@ BenchResult evaluate_bench(BenchTest test, std::span<const BenchReading> reading
     throw base::InputError({.where = "bench", .value = "no readings", .fix = "give at least one."});
   }
   check_readings(test, readings);
-  const Method method = method_of(test);
+  const Method& method = *test;
   if (method.error_of_all) {
     if (auto fault = method.error_of_all(values_of(readings))) {
       throw base::InputError(*std::move(fault));

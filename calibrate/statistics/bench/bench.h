@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <limits>
 #include <map>
 #include <optional>
@@ -81,28 +80,15 @@ double geometric_mean_diameter_of(double length, double width, double thickness)
 /// (L W T)^(1/3) / L, 1 for a sphere. Mohsenin, ch. 3. L is the longest.
 double sphericity_of(double length, double width, double thickness);
 
-enum class BenchTest {
-  restitution,
-  sliding,
-  rolling,
-  density,
-  young,
-  poisson,
-  size,
-  heap,
-  drop_on_grains,
-  tilt_on_grains,
-  roll_on_grains,
-  fill,
-  pendulum,
-  draw_down
-};
+struct Method;
+/// A test of the bench: one of those with a formula, or an experiment's whose readings are nothing
+/// but averaged (dem::MeanOfReadings).
+using BenchTest = const Method*;
 
-/// All of them, in the order of the enum.
-inline constexpr std::array<std::string_view, 14> kBenchTestNames = {
-    "restitution",    "sliding", "rolling",  "density",        "young",
-    "poisson",        "size",    "heap",     "drop_on_grains", "tilt_on_grains",
-    "roll_on_grains", "fill",    "pendulum", "draw_down"};
+std::vector<std::string> bench_test_names();
+/// @throws base::InputError  there is no such test.
+BenchTest bench_test_named(std::string_view name);
+std::string name_of(BenchTest test);
 
 /// Something that is read off in a test. A reading must lie between `above` and `below`.
 struct ReadingColumn {

@@ -214,16 +214,17 @@ std::vector<std::string> remarks_on_roll(std::span<const ReadingValues> readings
   return remarks;
 }
 
-}  // namespace
-
 ReadingColumn in_air_column() {
   constexpr double kOverOne = 1.000001;
   return {std::string(kInAirColumn), "answer, 1 for heights read in air and 0 for others,",
           kFromZero, kOverOne};
 }
 
+}  // namespace
+
 Method restitution_method() {
-  return {.source = "e = sqrt(h / H)",
+  return {.name = "restitution",
+          .source = "e = sqrt(h / H)",
           .columns = {{"drop_mm", "drop height H"}, {"rebound_mm", "rebound height h", kFromZero}},
           .outputs = {{"restitution", "", "coefficient of restitution e", restitution, 0, 1}},
           .error = drop_error,
@@ -238,7 +239,8 @@ Method restitution_method() {
 }
 
 Method sliding_method() {
-  return {.source = "mu_s = tan(angle)",
+  return {.name = "sliding",
+          .source = "mu_s = tan(angle)",
           .columns = {{"angle_deg", "angle of the incline at which it slides", 0, kRightAngle_deg}},
           .outputs = {{"sliding_friction", "", "coefficient of static friction mu_s",
                        [](ReadingValues v) { return sliding_friction_of(v[0] * kDegree); }}},
@@ -247,7 +249,8 @@ Method sliding_method() {
 }
 
 Method rolling_method() {
-  return {.source = "mu_r = S sin(b) / (S cos(b) + L), with the diameter less the loss at the foot",
+  return {.name = "rolling",
+          .source = "mu_r = S sin(b) / (S cos(b) + L), with the diameter less the loss at the foot",
           .columns = {{"incline_deg", "angle b of the incline", 0, kRightAngle_deg},
                       {"released_mm", "distance S down the incline"},
                       {"stopped_mm",
@@ -263,6 +266,47 @@ Method rolling_method() {
                                 "diameter of the ball, or across the axis it rolls "
                                 "about"}},
           .remarks = remarks_on_roll};
+}
+
+/// A bed of grains has no formula, the simulation stands for it.
+Method drop_on_grains_method() {
+  Method method = restitution_method();
+  method.name = "drop_on_grains";
+  method.source = "mean of the readings";
+  method.outputs = {{"rebound", "mm", "height of rebound from glued grains",
+                     [](ReadingValues v) { return v[1]; }}};
+  method.optional_columns = {in_air_column()};
+  method.remarks = {};
+  method.error_of_all = {};
+  method.validity =
+      "No material constant: on a bed most grains are thrown aside. Calibrate a study with these "
+      "readings.";
+  return method;
+}
+
+Method pendulum_method() {
+  return {
+      .name = "pendulum",
+      .source = "e = 2 sin(a / 2) / sin(b / 2) - 1",
+      .columns = {{"release_deg", "angle b that the one is let go from", 0, 90.000001},
+                  {"swing_deg", "angle a that the struck one swings to", kFromZero,
+                   kRightAngle_deg}},
+      .outputs = {{"restitution", "", "coefficient of restitution e",
+                   [](ReadingValues v) {
+                     return pendulum_restitution_of(v[0] * kDegree, v[1] * kDegree);
+                   },
+                   0, 1}},
+      .error = [](ReadingValues v) -> std::optional<base::Fault> {
+        if (v[1] <= v[0]) return std::nullopt;
+        return base::Fault{.subject = "swing_deg",
+                           .value = fmt::format("= {:g} is more than release_deg = {:g}, and the "
+                                                "struck grain swings no higher than the other fell",
+                                                v[1], v[0]),
+                           .fix = "use two grains of the same mass on strings of the same length."};
+      },
+      .validity =
+          "Holds for equal balls that meet head-on: what grains that are no spheres lose to spin "
+          "counts as loss."};
 }
 
 }  // namespace repose::calibrate

@@ -52,6 +52,7 @@ struct MethodOutput {
 
 /// How a test is worked out.
 struct Method {
+  std::string name;
   std::string source;
   std::vector<ReadingColumn> columns;
   std::vector<MethodOutput> outputs;
@@ -66,8 +67,6 @@ struct Method {
   std::function<std::optional<base::Fault>(std::span<const ReadingValues>)> error_of_all = {};
 };
 
-ReadingColumn in_air_column();
-
 Method restitution_method();
 Method sliding_method();
 Method rolling_method();
@@ -75,12 +74,7 @@ Method density_method();
 Method young_method();
 Method poisson_method();
 Method size_method();
-Method heap_method();
 Method drop_on_grains_method();
-Method tilt_on_grains_method();
-Method roll_on_grains_method();
-Method fill_method();
 Method pendulum_method();
-Method draw_down_method();
 
 }  // namespace repose::calibrate

@@ -68,20 +68,6 @@ std::vector<NumberColumn> needed_columns(const Table& table,
   return needed;
 }
 
-}  // namespace
-
-BenchTest bench_test_named(std::string_view name) {
-  const auto found = std::find(kBenchTestNames.begin(), kBenchTestNames.end(), name);
-  if (found == kBenchTestNames.end()) {
-    throw base::InputError({.where = fmt::format("bench test {}", name),
-                            .value = "unknown",
-                            .fix = fmt::format("choose {}.", fmt::join(kBenchTestNames, ", "))});
-  }
-  return static_cast<BenchTest>(found - kBenchTestNames.begin());
-}
-
-namespace {
-
 std::vector<std::string> names_of(const std::vector<ReadingColumn>& columns) {
   std::vector<std::string> names;
   for (const ReadingColumn& column : columns) names.push_back(column.name);

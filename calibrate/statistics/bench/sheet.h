@@ -17,9 +17,6 @@ namespace repose::calibrate {
 /// The column that names the grain, which a sheet may have beside those of its test.
 inline constexpr std::string_view kSampleColumn = "sample";
 
-/// @throws base::InputError  there is no such test.
-BenchTest bench_test_named(std::string_view name);
-
 /// Of the columns that a sheet must have, and of those that it may have.
 std::vector<std::string> column_names(BenchTest test);
 std::vector<std::string> optional_column_names(BenchTest test);

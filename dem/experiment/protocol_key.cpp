@@ -1,10 +1,30 @@
-#include "dem/study/protocol_key.h"
+#include "dem/experiment/protocol_key.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "base/units.h"
 
 namespace repose::dem {
+
+bool Range::contains(double value) const {
+  return std::isfinite(value) && (excludes_from ? value > from : value >= from) &&
+         (excludes_to ? value < to : value <= to);
+}
+
+std::string Range::rule() const {
+  std::string text = "a number";
+  if (std::isfinite(from))
+    text += fmt::format(" {} {:g}", excludes_from ? "above" : "of at least", from);
+  if (std::isfinite(to)) {
+    text += fmt::format("{} {} {:g}", std::isfinite(from) ? " and" : "",
+                        excludes_to ? "below" : "at most", to);
+  }
+  return text;
+}
 
 namespace {
 

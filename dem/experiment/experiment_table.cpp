@@ -1,14 +1,14 @@
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "dem/engine/time_step.h"
+#include "dem/experiment/entry.h"
 #include "dem/experiment/model_setup.h"
-#include "dem/study/entries.h"
 
 namespace repose::dem {
 namespace {
@@ -18,19 +18,23 @@ double spheres_of(const Model& model) { return static_cast<double>(model.grain.s
 }  // namespace
 
 std::span<const ExperimentEntry> all_experiments() {
-  static const std::array<ExperimentEntry, std::variant_size_v<Protocol>> kEntries = {
-      drop_entry(),           tilt_entry(),           roll_entry(),           heap_entry(),
-      drop_on_grains_entry(), tilt_on_grains_entry(), roll_on_grains_entry(), fill_entry(),
-      pendulum_entry(),       draw_down_entry()};
+#define REPOSE_ENTRY(name) name##_entry(),
+  static const ExperimentEntry kEntries[] = {REPOSE_EXPERIMENTS(REPOSE_ENTRY)};
+#undef REPOSE_ENTRY
   return kEntries;
 }
 
-const ExperimentEntry& entry_of(Experiment experiment) {
-  return all_experiments()[static_cast<std::size_t>(experiment)];
+const ExperimentEntry& entry_of(const std::type_info& protocol) {
+  for (const ExperimentEntry& entry : all_experiments()) {
+    if (entry.usual.kind() == protocol) return entry;
+  }
+  throw std::logic_error(fmt::format("{} is no experiment's protocol", protocol.name()));
 }
 
-const ExperimentEntry& entry_of(const Protocol& protocol) {
-  return all_experiments()[protocol.index()];
+const ExperimentEntry& entry_of(const Protocol& protocol) { return entry_of(protocol.kind()); }
+
+const ExperimentEntry& pictured_experiment() {
+  return *std::ranges::find_if(all_experiments(), &ExperimentEntry::is_pictured);
 }
 
 const ExperimentEntry* find_experiment(std::string_view name) {
@@ -48,18 +52,20 @@ const ExperimentEntry& experiment_named(std::string_view name) {
                           .fix = experiment_names() + '.'});
 }
 
-std::string experiment_names() {
+std::string experiment_names(const NameList& list) {
+  std::vector<std::string_view> meant;
+  for (const ExperimentEntry& entry : all_experiments()) {
+    if (list.is_meant == nullptr || list.is_meant(entry)) meant.push_back(entry.name);
+  }
   std::string names;
-  const auto entries = all_experiments();
-  for (const ExperimentEntry& entry : entries) {
-    const bool is_last = &entry == &entries.back();
-    if (!names.empty()) names += is_last ? " or " : ", ";
-    names += entry.name;
+  for (std::size_t k = 0; k < meant.size(); ++k) {
+    if (k > 0) names += k + 1 == meant.size() ? list.last : ", ";
+    names += fmt::format("{}{}{}", list.before, meant[k], list.after);
   }
   return names;
 }
 
-std::string name_of(Experiment experiment) { return std::string(entry_of(experiment).name); }
+std::string name_of(Experiment experiment) { return std::string(experiment->name); }
 
 base::InputError with_study_keys(const base::InputError& error, const Protocol& protocol) {
   const ExperimentEntry& entry = entry_of(protocol);
@@ -96,10 +102,9 @@ bool depends_on(const ExperimentEntry& entry, std::string_view coefficient) {
 }
 
 bool has_grain_contacts(Experiment experiment) {
-  const ExperimentEntry& entry = entry_of(experiment);
-  return std::any_of(
-      entry.coefficients.begin(), entry.coefficients.end(),
-      [](std::string_view name) { return name.starts_with("contact.particle_particle."); });
+  return std::ranges::any_of(experiment->coefficients, [](std::string_view name) {
+    return name.starts_with("contact.particle_particle.");
+  });
 }
 
 double bulk_step_s(const Model& model) { return 1.5e-7 + 9e-9 * spheres_of(model); }

@@ -1,23 +1,38 @@
 #pragma once
 
+#include <cstdint>
 #include <string_view>
-#include <vector>
 
-#include "dem/study/experiment_table.h"
+#include "dem/experiment/experiment_table.h"
 
-/// The rows of the table of experiments, each in a file of its own.
+/// Every experiment there is, in the order in which they are listed, a line each: NAME_entry() is
+/// in the experiment's own source.
+#define REPOSE_EXPERIMENTS(EXPERIMENT) \
+  EXPERIMENT(drop)                     \
+  EXPERIMENT(tilt)                     \
+  EXPERIMENT(roll)                     \
+  EXPERIMENT(heap)                     \
+  EXPERIMENT(drop_on_grains)           \
+  EXPERIMENT(tilt_on_grains)           \
+  EXPERIMENT(roll_on_grains)           \
+  EXPERIMENT(fill)                     \
+  EXPERIMENT(pendulum)                 \
+  EXPERIMENT(draw_down)
+
+/// What the entries of the experiments are made with.
 namespace repose::dem {
 
-ExperimentEntry drop_entry();
-ExperimentEntry tilt_entry();
-ExperimentEntry roll_entry();
-ExperimentEntry heap_entry();
-ExperimentEntry drop_on_grains_entry();
-ExperimentEntry tilt_on_grains_entry();
-ExperimentEntry roll_on_grains_entry();
-ExperimentEntry fill_entry();
-ExperimentEntry pendulum_entry();
-ExperimentEntry draw_down_entry();
+#define REPOSE_ENTRY(name) ExperimentEntry name##_entry();
+REPOSE_EXPERIMENTS(REPOSE_ENTRY)
+#undef REPOSE_ENTRY
+
+/// A run_NAME() as ExperimentEntry::run.
+template <typename Kind, Repeat (*kRun)(const Model&, const Kind&, std::uint64_t,
+                                        const ProgressReport&, const RunRecord&)>
+Repeat run_as(const Model& model, const Protocol& protocol, std::uint64_t seed,
+              const ProgressReport& report, const RunRecord& record) {
+  return kRun(model, protocol.as<Kind>(), seed, report, record);
+}
 
 inline constexpr std::string_view kWallRestitution = "contact.particle_wall.restitution";
 inline constexpr std::string_view kWallSliding = "contact.particle_wall.sliding_friction";
