@@ -41,6 +41,12 @@ struct Case {
     result.uncertainty_rad = result.left.uncertainty_rad = 0.01;
     result.right.uncertainty_rad = 0.01;
   }
+  /// A foot on the right, of which the line has nothing.
+  void give_apron(double from, bool is_high, double change_rad = 0) {
+    choice.best.right.apron = Apron{.from = from, .is_high = is_high};
+    choice.best.right.apron_rad = change_rad;
+    result.right.apron = FlankApron{.from = from};
+  }
   ReposeAngle judged() {
     judge(result, choice, options);
     return result;
@@ -141,7 +147,6 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"hollow", [](Case& c) { c.choice.best.left.bend_rad = 12 * kDegree; }, "bent_flank"},
         Error{"window", [](Case& c) { c.choice.best.left.window_spread_rad = 4 * kDegree; },
               "window_sensitive"},
-        Error{"high_apron", [](Case& c) { c.choice.best.right.high_apron = 0.4; }, "high_apron"},
         Error{"wide", [](Case& c) { c.result.uncertainty_rad = 6 * kDegree; }, "wide_interval"},
         Error{"legs", [](Case& c) { c.choice.likeness.filled = 0.8; }, "unlike_a_heap"},
         Error{"lopsided", [](Case& c) { c.result.left.angle_rad = 45 * kDegree; },
@@ -170,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"absent", [](Case& c) { c.choice.best.left.status = FlankStatus::absent; },
               "one_flank"},
         Error{"cut", [](Case& c) { c.choice.best.left.frame_cut = true; }, "flank_cut_by_frame"},
-        Error{"apron", [](Case& c) { c.choice.best.right.apron_cut = true; }, "apron_left_out"},
+        Error{"apron", [](Case& c) { c.give_apron(0.25, false); }, "apron_left_out"},
         Error{"grains", [](Case& c) { c.choice.best.grain = 20; }, "few_grains"},
         Error{"tilt", [](Case& c) { c.choice.best.body.ground.slope = 0.07; }, "tilted_picture"},
         Error{"mirror", [](Case& c) { c.choice.best.body.ground.mirrored = true; }, "mirror"},
@@ -188,6 +193,43 @@ INSTANTIATE_TEST_SUITE_P(
         Error{"unequal", [](Case& c) { c.result.left.angle_rad = 20 * kDegree; },
               "unequal_flanks"}),
     name_of);
+
+TEST(Judge, AHighApronIsFlaggedAndNamed) {
+  Case heap;
+  heap.give_apron(0.4, true, 3 * kDegree);
+  const ReposeAngle result = heap.judged();
+  EXPECT_EQ(result.status, MeasureStatus::flagged);
+  EXPECT_THAT(result.warnings, ElementsAre(Field(&Warning::code, "apron_left_out"),
+                                           Field(&Warning::code, "high_apron")));
+}
+
+TEST(Judge, AHighApronThatDecidesTheAngleIsRefused) {
+  Case low, high;
+  low.give_apron(0.3, false, 13 * kDegree);
+  high.give_apron(0.4, true, 13 * kDegree);
+  EXPECT_EQ(low.judged().status, MeasureStatus::ok);
+  EXPECT_EQ(high.judged().status, MeasureStatus::refused);
+}
+
+/// A hollow flank whose definitions lie apart.
+Case hollow_heap(double bend_rad, double other_rad) {
+  Case heap;
+  heap.choice.best.left.bend_rad = bend_rad;
+  heap.result.uncertainty_rad = 1 * kDegree;
+  heap.result.definitions = {{"whole_flank", "", other_rad}};
+  return heap;
+}
+
+TEST(Judge, DefinitionsThatLieFarApartOnAHollowFlankAreFlagged) {
+  // The angle is 28 +- 1 degrees: 24 is 3 beyond the interval.
+  EXPECT_EQ(hollow_heap(5 * kDegree, 23.9 * kDegree).judged().status, MeasureStatus::flagged);
+  EXPECT_EQ(hollow_heap(5 * kDegree, 32.1 * kDegree).judged().status, MeasureStatus::flagged);
+  EXPECT_EQ(hollow_heap(5 * kDegree, 24.1 * kDegree).judged().status, MeasureStatus::ok);
+  EXPECT_EQ(hollow_heap(0, 23.9 * kDegree).judged().status, MeasureStatus::ok)
+      << "rounded crests and toes lower some of them on every heap";
+  EXPECT_THAT(hollow_heap(5 * kDegree, 23.9 * kDegree).judged().warnings,
+              ElementsAre(Field(&Warning::code, "definitions_differ")));
+}
 
 TEST(Judge, FlanksThatTheirIntervalsLetDifferAreNoTrouble) {
   Case heap;
