@@ -301,11 +301,14 @@ void warn_of_definitions(ReposeAngle& result, const Reading& best) {
 
 void warn_of_angle(ReposeAngle& result, const Reading& best) {
   if (*result.uncertainty_rad > kWideInterval_rad) {
+    const double apron_rad = std::max(best.left.apron_rad, best.right.apron_rad);
+    const bool is_by_apron = apron_rad > *result.uncertainty_rad / 2;
     flag(result, "wide_interval",
-         fmt::format(
-             "The angle is uncertain by ±{:.1f} degrees: measure more pictures of this heap, or "
-             "a heap of more grains.",
-             to_degrees(*result.uncertainty_rad)));
+         fmt::format("The angle is uncertain by ±{:.1f} degrees: {}.",
+                     to_degrees(*result.uncertainty_rad),
+                     is_by_apron ? "state whether the apron belongs to it, or make the heap on a "
+                                   "base as wide as the heap alone"
+                                 : "measure more pictures of this heap, or a heap of more grains"));
   }
   warn_of_definitions(result, best);
 }
