@@ -33,7 +33,7 @@ struct Measured {
 
 /// Of the right flank of a heap that falls as `height(u)`, as far as that is above 0.
 template <class Height>
-Measured measured(Height height, double grain) {
+Measured measured_flank(Height height, double grain) {
   const Profile profile = profile_of(1200, [&](double along) {
     const double u = along - 20.5;
     return u < 0 ? kHeight + 0.5 * u : height(u);
@@ -68,7 +68,8 @@ void expect_no_leap(const Heap& heap, double from, double to, int steps, const F
   double last_interval_rad = 0;
   for (int i = 0; i <= steps; ++i) {
     const double changed = from + (to - from) * i / steps;
-    const Measured now = measured([&](double u) { return foot(heap, changed, u); }, heap.grain);
+    const Measured now =
+        measured_flank([&](double u) { return foot(heap, changed, u); }, heap.grain);
     ASSERT_EQ(now.fit.status, FlankStatus::ok) << changed;
     EXPECT_LE(now.fit.apron_rad, now.interval_rad) << "both readings lie in the interval";
     if (i > 0) {
@@ -166,7 +167,7 @@ Repeats repeats(bool has_apron, int count) {
   Repeats all;
   for (int i = 0; i < count; ++i) {
     const std::vector<double> edge = repeat(random, has_apron);
-    const Measured one = measured(
+    const Measured one = measured_flank(
         [&](double u) {
           const auto at = static_cast<std::size_t>(u);
           return at < edge.size() ? edge[at] : 0;
@@ -201,7 +202,7 @@ TEST(Apron, HardlyCountsAndIsDescribed) {
     const double end = 3 * kHeight / slope;
     return u < end ? std::max(kHeight - slope * u, 2.2 * kGrain + std::sin(u / 4)) : 0;
   };
-  const FlankFit fit = measured(with_apron, kGrain).fit;
+  const FlankFit fit = measured_flank(with_apron, kGrain).fit;
   EXPECT_NEAR(fit.angle_rad, 26 * kDegree, 0.3 * kDegree);
   ASSERT_TRUE(fit.apron);
   EXPECT_NEAR(fit.apron->from, 2.2 * kGrain / kHeight, 0.03);
@@ -236,10 +237,18 @@ TEST(Apron, FromHighUpIsSaidToBeHigh) {
   const auto with_foot = [](double u) {
     return u < 600 ? std::max(kHeight - .5 * u, .4 * kHeight - 0.05 * (u - 132)) : 0;
   };
-  const FlankFit fit = measured(with_foot, 5).fit;
+  const FlankFit fit = measured_flank(with_foot, 5).fit;
   ASSERT_TRUE(fit.apron);
   EXPECT_TRUE(fit.apron->is_high);
   EXPECT_NEAR(fit.apron->from, 0.4, 0.03);
+}
+
+TEST(Apron, BeforeAWallIsNoHeapsFoot) {
+  // What is left of the window without its plate stands upright: no line fits it better.
+  const auto plate = [](double u) { return u < 8 ? kHeight - 9 * u : u < 300 ? .3 * kHeight : 0; };
+  const FlankFit fit = measured_flank(plate, 5).fit;
+  EXPECT_EQ(fit.status, FlankStatus::absent);
+  EXPECT_TRUE(fit.vertical);
 }
 
 TEST(Apron, OrHollowFootOfFewLargeGrainsIsInTheInterval) {
@@ -247,7 +256,7 @@ TEST(Apron, OrHollowFootOfFewLargeGrainsIsInTheInterval) {
   const auto with_foot = [](double u) {
     return std::max(0.0, u < 78 ? kHeight - 0.7 * u : 55 - 0.25 * (u - 78));
   };
-  const Measured foot = measured(with_foot, 22);
+  const Measured foot = measured_flank(with_foot, 22);
   const Profile profile = profile_of(1200, [&](double along) {
     const double u = along - 20.5;
     return u < 0 ? kHeight + 0.5 * u : with_foot(u);

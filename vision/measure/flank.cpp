@@ -326,6 +326,8 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
     weight = weights_of(d, w, middle, fit.grain);
   }
   fit_lines(fit, d, w, weight, spacing);
+  // A wall with a plate before it, of which all but the wall was taken for an apron.
+  if (-fit.least_squares.slope > kSteepest) return upright_end("this side falls off vertically");
   add_fit_error(fit, spacing, options.seed);
   add_other_windows(fit, d, crest, weight);
   add_apron(fit, d, w, crest, spacing);
