@@ -1,6 +1,8 @@
 // Draws the figures of docs/tutorial.md from a sample photograph, and those of docs/measuring.md
-// from drawn heaps, as repose measure --overlay draws them: take_figures PHOTOGRAPH FOLDER writes
-// them take_figures PHOTOGRAPH FOLDER --check   compares them with those that are there
+// from drawn heaps, as repose measure --overlay draws them:
+//
+// take_figures PHOTOGRAPH FOLDER           writes them
+// take_figures PHOTOGRAPH FOLDER --check   compares them with those that are there
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
