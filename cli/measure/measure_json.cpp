@@ -150,6 +150,13 @@ void add_estimate(Json& json, const std::string& key,
   json[key + "_uncertainty"] = estimate ? Json(estimate->uncertainty) : Json();
 }
 
+Json apron_json(const std::optional<vision::FlankApron>& apron) {
+  if (!apron) return nullptr;
+  return {{"from", apron->from},
+          {"length_px", apron->length_px},
+          {"angle_with_deg", rounded_degrees(apron->angle_with_rad)}};
+}
+
 Json flank_json(const vision::Flank& flank) {
   Json windows = Json::array();
   for (const vision::WindowAngle& other : flank.other_windows) {
@@ -165,7 +172,8 @@ Json flank_json(const vision::Flank& flank) {
             {"least_squares_deg", degrees(flank.least_squares_rad)},
             {"robust_deg", degrees(flank.robust_rad)},
             {"bend_deg", degrees(flank.bend_rad)},
-            {"other_windows", windows}};
+            {"other_windows", windows},
+            {"apron", apron_json(flank.apron)}};
   if (flank.status != vision::FlankStatus::ok) json["reason"] = flank.reason;
   return json;
 }

@@ -141,9 +141,11 @@ the report are of heaps at rest alone.
 
 Methods:
   auto   Segments the heap in several ways and takes the most convincing
-         silhouette. Finds the ground line; leaves out thin aprons at the
-         toe, the crest, and stray grains; fits a robust line to each side
-         within the window. Angles are measured from the ground line.
+         silhouette. Finds the ground line; leaves out the crest and stray
+         grains; fits a robust line to each side within the window, in which
+         aprons (feet much flatter than the flank above) count little; the
+         interval covers what counting them in full would change. Angles are
+         measured from the ground line.
   paper  The method of the published hazelnut study: grey picture, Otsu
          threshold, holes filled, edge, ordinary least squares through each
          side's edge over the whole window, mean of the absolute slopes of

@@ -157,6 +157,11 @@ void add_definitions(Table& table, const vision::ReposeAngle& angle) {
                      fmt::format("{} side, window {:.0f}–{:.0f} % of the height", side,
                                  100 * other.window_from, 100 * other.window_to));
     }
+    if (!flank->apron) continue;
+    table.add_note(
+        fmt::format("{}{:5.2f}°  ", kNoteIndent, to_degrees(flank->apron->angle_with_rad)),
+        fmt::format("{} side, its apron below {:.0f} % of the height counted in full", side,
+                    100 * flank->apron->from));
   }
 }
 

@@ -1,7 +1,12 @@
-// Draws the figures of docs/tutorial.md from a sample photograph, as repose measure --overlay draws
-// them:
+// Draws the figures of docs/tutorial.md from a sample photograph, and those of docs/measuring.md
+// from drawn heaps, as repose measure --overlay draws them:
+//
 // take_figures PHOTOGRAPH FOLDER           writes them
 // take_figures PHOTOGRAPH FOLDER --check   compares them with those that are there
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -28,12 +33,39 @@ struct Figure {
   vision::Box part;  ///< of the photograph; empty: all of it
 };
 
-std::vector<std::uint8_t> drawn(const vision::Picture& photograph, const Figure& figure) {
-  const bool is_whole = figure.part.width == 0;
-  const vision::Picture part = is_whole ? photograph : vision::part_of(photograph, figure.part);
-  const vision::Picture overlay = vision::draw_overlay(part, vision::measure_repose_angle(part),
-                                                       {.title = figure.name, .excluded = {}});
+std::vector<std::uint8_t> drawn(const vision::Picture& picture, const char* name) {
+  const vision::Picture overlay = vision::draw_overlay(
+      picture, vision::measure_repose_angle(picture), {.title = name, .excluded = {}});
   return vision::jpeg_of(vision::reduced(overlay, kSide_px), kQuality);
+}
+
+vision::Picture part_of(const vision::Picture& photograph, const Figure& figure) {
+  const bool is_whole = figure.part.width == 0;
+  return is_whole ? photograph : vision::part_of(photograph, figure.part);
+}
+
+/// Silhouette of a heap ten grains high, with a bumpy edge and an apron a quarter as high as
+/// itself.
+/// @param apron  length / half of the base
+vision::Picture heap_with_apron(double apron) {
+  constexpr int kWidth = 1000, kBelow = 60;
+  constexpr double kHeight = 170, kHalfBase = 300, kGrain = 17;
+  vision::Picture picture{.width = kWidth, .height = 300, .bgr = {}};
+  picture.bgr.resize(std::size_t{3} * kWidth * 300, 235);
+  for (int column = 0; column < kWidth; ++column) {
+    const double out = std::abs(column + .5 - kWidth / 2.0);
+    const double flank = kHeight * (1 - out / kHalfBase);
+    const double foot = out < kHalfBase * (.75 + apron) ? kHeight / 4 : 0;
+    const double top = std::max(flank, foot);
+    const double bump = .2 * kGrain * std::sin(out * 4 / kGrain);
+    const int rows = top > 0 ? static_cast<int>(top + bump) : 0;
+    for (int row = picture.height - kBelow - std::max(0, rows); row < picture.height - kBelow;
+         ++row) {
+      const auto at = std::size_t{3} * static_cast<std::size_t>(row * kWidth + column);
+      std::fill_n(picture.bgr.begin() + static_cast<std::ptrdiff_t>(at), 3, std::uint8_t{40});
+    }
+  }
+  return picture;
 }
 
 /// How much they differ on average, in grey levels; other libraries round a pixel here and there.
@@ -76,12 +108,17 @@ bool take(const vision::Picture& photograph, const fs::path& folder, bool only_c
                         .width = photograph.width,
                         .height = photograph.height * 27 / 50};
   bool is_good = true;
+  const auto finish = [&](const char* name, const vision::Picture& picture) {
+    const fs::path file = folder / name;
+    const std::vector<std::uint8_t> bytes = drawn(picture, name);
+    is_good = (only_checks ? is_fresh(file, bytes) : write(file, bytes)) && is_good;
+  };
   for (const Figure& figure :
        {Figure{"measured.jpg", whole}, {"half_a_heap.jpg", half}, {"crest_cut_off.jpg", low}}) {
-    const fs::path file = folder / figure.name;
-    const std::vector<std::uint8_t> bytes = drawn(photograph, figure);
-    is_good = (only_checks ? is_fresh(file, bytes) : write(file, bytes)) && is_good;
+    finish(figure.name, part_of(photograph, figure));
   }
+  finish("short_apron.jpg", heap_with_apron(.15));
+  finish("long_apron.jpg", heap_with_apron(.8));
   return is_good;
 }
 

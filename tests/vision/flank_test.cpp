@@ -41,7 +41,7 @@ TEST(FitFlank, StraightFlanksAreExact) {
     EXPECT_NEAR(flank.fit_error_rad, 0, 1e-6);
     EXPECT_NEAR(flank.window_spread_rad, 0, 1e-6);
     EXPECT_NEAR(flank.bend_rad, 0, 1e-6);
-    EXPECT_FALSE(flank.apron_cut || flank.frame_cut || flank.vertical);
+    EXPECT_FALSE(flank.apron || flank.frame_cut || flank.vertical);
   }
 }
 
@@ -130,55 +130,12 @@ TEST(FitFlank, AHollowToeBelowTheWindowDoesNotMatter) {
   EXPECT_GT(flank.window_spread_rad, 0.5 * kDegree);
 }
 
-TEST(FitFlank, AnApronInTheWindowIsLeftOut) {
-  const double slope = std::tan(26 * kDegree);
-  constexpr double kGrain_px = 12;
-  const auto with_apron = [&](double u, double h) {  // two grains thick, twice the flank's length
-    const double end = 3 * 100 / slope;
-    return u < end ? std::max(h, 2 * kGrain_px + std::sin(u / 4)) : 0;
-  };
-  const Profile profile = right_flank(slope, with_apron);
-  const FlankFit without = fit(profile, Side::right, {.grain = kGrain_px});
-  EXPECT_TRUE(without.apron_cut);
-  EXPECT_FALSE(without.high_apron);
-  EXPECT_NEAR(without.window_from, 0.24, 0.02);
-  EXPECT_NEAR(without.angle_rad, 26 * kDegree, 0.25 * kDegree);
-  const FlankFit with = fit(profile, Side::right, {.leave_apron_out = false, .grain = kGrain_px});
-  EXPECT_FALSE(with.apron_cut);
-  EXPECT_LT(std::atan(-with.least_squares.slope), 23 * kDegree);
-}
-
-TEST(FitFlank, AHighWindowKeepsAboveAnApron) {
-  const double slope = std::tan(26 * kDegree);
-  const auto with_apron = [&](double u, double h) {
-    return u < 3 * 100 / slope ? std::max(h, 24 + std::sin(u / 4)) : 0;
-  };
-  const FlankFit flank = fit(right_flank(slope, with_apron), Side::right,
-                             {.window_from = 0.4, .window_to = 0.9, .grain = 24});
-  EXPECT_FALSE(flank.apron_cut);
-  EXPECT_NEAR(flank.height.back(), 40, 1.5);
-  EXPECT_NEAR(flank.angle_rad, 26 * kDegree, 0.1 * kDegree);
-}
-
-TEST(FitFlank, AFootThatIsHalfOfTheFlankIsNotCutOffButSaid) {
-  // Level from .4 of the height on: what would be left is another angle.
-  const auto with_foot = [](double u, double h) {
-    return u < 600 ? std::max(h, 40 - 0.07 * (u - 120)) : 0;
-  };
-  const FlankFit flank = fit(right_flank(0.5, with_foot), Side::right, {.grain = 5});
-  EXPECT_FALSE(flank.apron_cut);
-  ASSERT_TRUE(flank.high_apron);
-  EXPECT_NEAR(*flank.high_apron, 0.4, 0.03);
-  EXPECT_EQ(flank.window_from, 0.2);
-}
-
 TEST(FitFlank, ALedgeUnderWhichTheFlankGoesOnIsNoFoot) {
   const auto with_ledge = [](double u, double) {  // 2.5 grains wide, at .48 of the height
     return std::max(0.0, 100 - 0.5 * (u < 104 ? u : std::max(104.0, u - 30)));
   };
   const FlankFit flank = fit(right_flank(0.5, with_ledge), Side::right, {.grain = 12});
-  EXPECT_FALSE(flank.apron_cut);
-  EXPECT_FALSE(flank.high_apron);
+  EXPECT_FALSE(flank.apron);
 }
 
 TEST(FitFlank, AStepBetweenLargeGrainsOfUnknownSizeIsNoApron) {
@@ -187,18 +144,8 @@ TEST(FitFlank, AStepBetweenLargeGrainsOfUnknownSizeIsNoApron) {
     const Profile silhouette = right_flank(0.6, [&](double u, double h) {
       return std::max(0.0, h + 8 * std::sin(2 * std::numbers::pi * u / 30 + phase));
     });
-    EXPECT_FALSE(fit(silhouette, Side::right).apron_cut) << phase;
+    EXPECT_FALSE(fit(silhouette, Side::right).apron) << phase;
   }
-}
-
-TEST(FitFlank, AHollowFootOfFewLargeGrainsIsNoApron) {
-  // Above its foot there are four grains of flank.
-  const auto with_foot = [](double u, double) {
-    return std::max(0.0, u < 70 ? 100 - 0.7 * u : 51 - 0.25 * (u - 70));
-  };
-  const FlankFit flank = fit(right_flank(0.7, with_foot), Side::right, {.grain = 20});
-  EXPECT_FALSE(flank.apron_cut);
-  EXPECT_NEAR(flank.height.back(), 20, 1);
 }
 
 TEST(FitFlank, AnUprightFaceIsNoFlank) {

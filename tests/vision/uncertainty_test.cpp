@@ -109,6 +109,31 @@ TEST(Uncertainty, TheWindowsPartDoesNotAverageOut) {
   EXPECT_NEAR(u.mean_rad, u.left_rad, 1e-12);
 }
 
+TEST(Uncertainty, OfABentFlankTheWindowCountsInFullUpToHalfTheBend) {
+  SelectedCandidate choice = choice_with_errors(0, 0);
+  FlankFit& left = choice.best.left;
+  left.window_spread_rad = 0.04;
+  const auto window = [&](double bend_rad) {
+    left.bend_rad = bend_rad;
+    const double all = uncertainty_of(choice).left_rad;
+    return std::sqrt(all * all - kFloor_rad * kFloor_rad);
+  };
+  EXPECT_NEAR(window(0), 0.02, 1e-9);
+  EXPECT_NEAR(window(0.06), 0.03, 1e-9);
+  EXPECT_NEAR(window(-0.06), 0.03, 1e-9);
+  EXPECT_NEAR(window(0.2), 0.04, 1e-9);
+}
+
+TEST(Uncertainty, AnApronCountsInFullAndDoesNotAverageOut) {
+  SelectedCandidate choice = choice_with_errors(0.01, 0.01);
+  const Uncertainty before = uncertainty_of(choice);
+  choice.best.left.apron_rad = 0.1;
+  choice.best.right.apron_rad = 0.06;
+  const Uncertainty after = uncertainty_of(choice);
+  EXPECT_NEAR(after.left_rad, before.left_rad + 0.1, 1e-9);
+  EXPECT_NEAR(after.mean_rad, before.mean_rad + 0.08, 1e-9);
+}
+
 TEST(Uncertainty, AnEdgeBehindTheHeapCountsByTheFlanksBend) {
   SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   choice.best.left.bend_rad = -0.04;

@@ -1,6 +1,7 @@
 #include "vision/drawing/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -49,10 +50,24 @@ std::string heading(const ReposeAngle& measured) {
   return angle_text(*measured.angle_rad, measured.uncertainty_rad);
 }
 
+std::string window_text(const std::array<double, 2>& window) {
+  return fmt::format("{:.0f}–{:.0f} %", 100 * window[0], 100 * window[1]);
+}
+
+/// The window, and of each side of which less was fitted, what that is.
+std::string windows_of(const ReposeAngle& measured) {
+  std::string text = fmt::format("window {} of the height", window_text(measured.window));
+  for (const auto& [name, flank] :
+       {std::pair("left", &measured.left), {"right", &measured.right}}) {
+    if (!flank->window_used || *flank->window_used == measured.window) continue;
+    text += fmt::format(", {} {}", name, window_text(*flank->window_used));
+  }
+  return text;
+}
+
 std::string details(const ReposeAngle& measured) {
-  std::string text = fmt::format("{} method · window {:.0f}–{:.0f} % of the height",
-                                 measured.method == Method::paper ? "paper" : "auto",
-                                 100 * measured.window[0], 100 * measured.window[1]);
+  std::string text = fmt::format(
+      "{} method · {}", measured.method == Method::paper ? "paper" : "auto", windows_of(measured));
   if (measured.ground_tilt_rad) {
     text += fmt::format(" · ground tilt {:.1f}°", to_degrees(*measured.ground_tilt_rad));
   }

@@ -180,7 +180,7 @@ bool sees_round_foot(const Reading& reading) {
   const Ground& ground = reading.body.ground;
   const Profile& profile = reading.profile;
   return reading.score >= kFairlyGood && !ground.behind && ground.bow.value_or(0) > kFlatBase &&
-         !reading.left.apron_cut && !reading.right.apron_cut && !profile.leaves_frame_left &&
+         !reading.left.apron && !reading.right.apron && !profile.leaves_frame_left &&
          !profile.leaves_frame_right;
 }
 

@@ -60,9 +60,12 @@ std::size_t column_at(const Descent& d, double u) {
   return static_cast<std::size_t>(std::lower_bound(d.u.begin(), d.u.end(), u) - d.u.begin());
 }
 
-LineFit line_through(const Descent& d, const Stretch& stretch) {
-  return least_squares_line(std::span(d.u).subspan(stretch.first, stretch.size()),
-                            std::span(d.h).subspan(stretch.first, stretch.size()));
+LineFit line_through(const Descent& d, const Stretch& stretch, const std::vector<double>& weight) {
+  const auto part = [&](const std::vector<double>& all) {
+    return std::span(all).subspan(stretch.first, stretch.size());
+  };
+  return least_squares_line(part(d.u), part(d.h),
+                            weight.empty() ? std::span<const double>{} : part(weight));
 }
 
 Stretch rough_stretch(const Descent& d, double low, double high) {
@@ -88,14 +91,13 @@ namespace {
 
 constexpr double kSteepest = 3.0;  // tan of 71.6 degrees: nothing loose stands steeper
 constexpr std::size_t kFewestPoints = 12;
-constexpr double kFewestVisible = 0.8;  // of the window that must be in the picture: a shorter
-                                        // stretch is another angle, flanks are hollow
-constexpr double kBlockGrains = 2;      // neighbours within 2 grains are one piece of evidence
-constexpr double kFewestGrains = 5;     // high: a bump longer than such a heap's grain is none
-constexpr double kFewestLeft = 5;       // grains of flank above an apron: over fewer the slope is a
-                                        // grain's, below which the next one looks like an apron
-constexpr double kThinGrains = 2;       // height of an apron
+constexpr double kFewestVisible = 0.8;     // of the window that must be in the picture: a shorter
+                                           // stretch is another angle, flanks are hollow
+constexpr double kBlockGrains = 2;         // neighbours within 2 grains are one piece of evidence
+constexpr double kFewestGrains = 5;        // high: a bump longer than such a heap's grain is none
+constexpr double kThinGrains = 2;          // height of a layer
 constexpr double kHighestApron = 1.0 / 3;  // of the height: what begins above is half of the flank
+constexpr double kHalf = 0.5;              // a column that counts less is not said to be fitted
 
 /// Mean distance between upward crossings of the line by the edge: one to two grains.
 double bump_length(const Descent& d, const Stretch& w) {
@@ -107,24 +109,31 @@ double bump_length(const Descent& d, const Stretch& w) {
   return (d.u[w.last - 1] - d.u[w.first]) / std::max(1, crossings);
 }
 
-/// Where an apron begins in the lower half of the stretch's height: a thin layer that runs out from
-/// the foot. There the slope over some grains has sunk under a third of the upper half's, or less
-/// than two grains of height are left though the foot is still far (twice as far as the flank's
-/// slope would take).
-std::size_t apron_start(const Descent& d, const Stretch& w, double middle, double grain) {
+/// How much each column counts: see fit_flank(). What lies below the window, which other windows
+/// reach into, counts as the window's last column does.
+/// @param middle  height of the middle of the window `w`
+std::vector<double> weights_of(const Descent& d, const Stretch& w, double middle, double grain) {
+  constexpr double kFullSlope = .4;  // of the upper half's, from which on a column counts in full
+  constexpr int kPower = 6;
+  constexpr double kSlopePart = .25;  // of the upper half: a slope is not taken over less
+  std::vector<double> weight(d.u.size(), 1);
   const Stretch upper{w.first, rough_stretch(d, middle, d.smooth[w.first]).last};
-  const double slope = upper.size() < 2 ? 0 : line_through(d, upper).slope;
-  if (slope >= 0) return w.last;
-  const std::size_t two_grains = column_at(d, d.u[w.first] + 2 * grain) - w.first;
-  const std::size_t beside = std::max({two_grains, upper.size() / 4, std::size_t{4}});
+  if (upper.size() < 2) return weight;
+  const double slope = line_through(d, upper).slope;
+  if (slope > -kFlattestSlope) return weight;
+  const double run = d.u[upper.last - 1] - d.u[upper.first];
+  const double spacing = run / static_cast<double>(upper.size() - 1);
+  const double reach = std::max(kSmoothGrains * grain, kSlopePart * run) / std::max(spacing, 1e-9);
+  const std::size_t beside = std::max(kFewestBeside, static_cast<std::size_t>(std::lround(reach)));
   for (std::size_t i = upper.last; i < w.last; ++i) {
-    const double to_foot = d.u.back() - d.u[i];
-    if (d.smooth[i] < kThinGrains * grain && to_foot > 2 * d.smooth[i] / -slope) return i;
-    const std::size_t half = std::min(i, beside);
-    if (i + half >= d.u.size()) break;
-    if (line_through(d, {i - half, i + half}).slope > slope / 3) return i;
+    const Stretch near{std::max(w.first, i - std::min(i, beside)),
+                       std::min(weight.size(), i + beside + 1)};
+    const double share = line_through(d, near).slope / slope / kFullSlope;
+    weight[i] = std::min(weight[i - 1], std::pow(std::clamp(share, 0.0, 1.0), kPower));
   }
-  return w.last;
+  const auto below = weight.begin() + static_cast<std::ptrdiff_t>(w.last);
+  if (w.last > 0) std::fill(below, weight.end(), *(below - 1));
+  return weight;
 }
 
 double angle_of(const LineFit& line) { return std::atan(-line.slope); }
@@ -142,13 +151,18 @@ FlankFit upright_end(std::string reason) {
   return fit;
 }
 
-/// Residuals of the points that the robust line believes; the others are put on the line.
+double weight_at(const FlankFit& fit, std::size_t i) {
+  return fit.weight.empty() ? 1 : fit.weight[i];
+}
+
+/// Residuals of the points as far as they count and the robust line believes them; the others are
+/// put on the line.
 std::vector<double> believed_residuals(const FlankFit& fit) {
   std::vector<double> residual;
   for (std::size_t i = 0; i < fit.along.size(); ++i) {
     const double r = fit.height[i] - fit.robust.y(fit.along[i]);
     const double t = r / std::max(1e-9, 4.685 * fit.scatter);
-    residual.push_back(std::abs(t) < 1 ? r * (1 - t * t) : 0);
+    residual.push_back(std::abs(t) < 1 ? weight_at(fit, i) * r * (1 - t * t) : 0);
   }
   return residual;
 }
@@ -184,74 +198,106 @@ Heights heights_of(const Descent& d, double crest, bool at_frame, const FlankOpt
   return {low, high, frame_cut, std::nullopt};
 }
 
+/// Scale of what bends the edge as a whole: of its distances from the least-squares line, smoothed
+/// over three grains. A robust line whose scale could fall below it would follow the one or the
+/// other half of a bent flank, and leap between them.
+double bend_scale(const FlankFit& fit, double spacing) {
+  std::vector<double> residual;
+  for (std::size_t i = 0; i < fit.along.size(); ++i) {
+    residual.push_back(fit.height[i] - fit.least_squares.y(fit.along[i]));
+  }
+  const double widest = kWidestOfStretch * static_cast<double>(residual.size());
+  const double width = std::min(kSmoothGrains * fit.grain / std::max(spacing, 1e-9), widest);
+  std::vector<double> smooth = moving_average(residual, static_cast<std::size_t>(width));
+  for (double& value : smooth) value = std::abs(value);
+  return kMadToSigma * median(smooth, fit.weight);
+}
+
 /// Both lines through the window's points, and how they scatter.
-void fit_lines(FlankFit& fit, const Descent& d, const Stretch& w) {
+void fit_lines(FlankFit& fit, const Descent& d, const Stretch& w, const std::vector<double>& weight,
+               double spacing) {
   const auto part = [&](const std::vector<double>& all) {
     return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(w.first),
                                all.begin() + static_cast<std::ptrdiff_t>(w.last));
   };
   fit.along = part(d.u);
   fit.height = part(d.h);
-  fit.least_squares = least_squares_line(fit.along, fit.height);
-  fit.robust = robust_line(fit.along, fit.height);
+  if (!weight.empty()) fit.weight = part(weight);
+  fit.least_squares = least_squares_line(fit.along, fit.height, fit.weight);
+  const double bend = bend_scale(fit, spacing);
+  fit.robust = robust_line(fit.along, fit.height, fit.weight, bend);
   fit.shown = fit.robust;
   fit.angle_rad = angle_of(fit.shown);
   std::vector<double> distance;
+  double all = 0;
   for (std::size_t i = 0; i < fit.along.size(); ++i) {
     distance.push_back(std::abs(fit.height[i] - fit.robust.y(fit.along[i])));
+    all += weight_at(fit, i);
   }
-  fit.scatter = kMadToSigma * median(distance);
-  const std::size_t half = w.first + w.size() / 2;
-  fit.bend_rad =
-      angle_of(line_through(d, {w.first, half})) - angle_of(line_through(d, {half, w.last}));
+  fit.scatter = kMadToSigma * median(distance, fit.weight);
+  const std::size_t half = w.first + static_cast<std::size_t>(all / 2);
+  fit.bend_rad = angle_of(line_through(d, {w.first, half}, weight)) -
+                 angle_of(line_through(d, {half, w.last}, weight));
 }
 
 void add_fit_error(FlankFit& fit, double spacing, std::uint64_t seed) {
   const auto block = static_cast<std::size_t>(
       std::max(2.0, std::ceil(kBlockGrains * fit.grain / std::max(spacing, 0.1))));
   const double slope_error =
-      block_bootstrap_slope_error(fit.along, believed_residuals(fit), block, seed);
+      block_bootstrap_slope_error(fit.along, believed_residuals(fit), block, seed, fit.weight);
   fit.fit_error_rad = slope_error / (1 + fit.robust.slope * fit.robust.slope);
-  fit.degrees_of_freedom = independent_blocks(fit.along.size(), block) - 2;
+  double all = 0;
+  for (std::size_t i = 0; i < fit.along.size(); ++i) all += weight_at(fit, i);
+  fit.degrees_of_freedom = independent_blocks(all, block) - 2;
 }
 
-/// The angle from other stretches of the flank, none of them reaching below `floor`.
-void add_other_windows(FlankFit& fit, const Descent& d, double crest, double floor) {
+/// The angle from other stretches of the flank.
+void add_other_windows(FlankFit& fit, const Descent& d, double crest,
+                       const std::vector<double>& weight) {
   constexpr double kWindows[][2] = {{0.1, 0.9}, {0.3, 0.7}};
   for (const auto& [from, to] : kWindows) {
-    const Stretch w = smoothed_stretch(d, std::max(from * crest, floor), to * crest, fit.grain);
+    const Stretch w = smoothed_stretch(d, from * crest, to * crest, fit.grain);
     if (w.size() < kFewestPoints) continue;
-    const double angle = angle_of(line_through(d, w));
+    const double angle = angle_of(line_through(d, w, weight));
     fit.other_windows.push_back({from, to, angle});
     fit.window_spread_rad =
         std::max(fit.window_spread_rad, std::abs(angle - angle_of(fit.least_squares)));
   }
 }
 
-/// Ends the stretch where an apron begins, if that is low enough; else says that there is one.
-void leave_apron_out(FlankFit& fit, Stretch& w, const Descent& d, double crest) {
-  const double middle = (fit.window_from + fit.window_to) / 2 * crest;
-  const std::size_t start = apron_start(d, w, middle, fit.grain);
-  const std::size_t five_grains = column_at(d, d.u[w.first] + kFewestLeft * fit.grain) - w.first;
-  if (start == w.last || start <= w.first + std::max(kFewestPoints, five_grains)) return;
-  const double height = d.smooth[start] / crest;
-  const bool is_thin = d.smooth[start] < kThinGrains * fit.grain;
-  if (height > kHighestApron && !is_thin) {
-    const double below = line_through(d, {start, w.last}).slope;
-    const double above = line_through(d, {w.first, start}).slope;
-    if (below > above / 2) fit.high_apron = height;  // else a ledge, under which the flank goes on
-    return;
-  }
-  // Two large grains may be more than a third of the height.
-  const std::size_t low_enough = rough_stretch(d, kHighestApron * crest, d.smooth[w.first]).last;
-  const std::size_t cut = std::max(start, low_enough);
-  if (cut >= w.last) return;
-  w.last = cut;
-  fit.apron_cut = true;
-  fit.window_from = std::max(fit.window_from, std::min(height, kHighestApron));
+/// What the line would be if an apron counted in full, and where it begins.
+void add_apron(FlankFit& fit, const Descent& d, const Stretch& w, double crest, double spacing) {
+  if (fit.weight.empty() || fit.weight.back() == 1) return;
+  FlankFit with = fit;
+  with.weight.clear();
+  fit_lines(with, d, w, {}, spacing);
+  fit.apron_rad = std::abs(with.angle_rad - fit.angle_rad);
+  const std::size_t counted = fit.counted();
+  if (counted == fit.along.size()) return;
+  const std::size_t start = w.first + counted;
+  const double from = d.smooth[start] / crest;
+  fit.apron = Apron{.from = from,
+                    .length = d.u.back() - d.u[start],
+                    .is_high = from > kHighestApron && d.smooth[start] > kThinGrains * fit.grain,
+                    .angle_with_rad = with.angle_rad};
+  fit.window_from = std::max(fit.window_from, from);
 }
 
 }  // namespace
+
+std::size_t FlankFit::counted() const {
+  const auto less =
+      std::count_if(weight.begin(), weight.end(), [](double counts) { return counts < kHalf; });
+  return along.size() - static_cast<std::size_t>(less);
+}
+
+double FlankFit::sure_bend_rad() const {
+  // The standard error of the halves' difference is four of the line's: 2^1.5 for half the length,
+  // times the root of 2 for two. Two of those are taken for chance.
+  constexpr double kHalvesPerWhole = 4, kByChance = 2;
+  const double chance = kByChance * kHalvesPerWhole * fit_error_rad;
+  return std::sqrt(std::max(0.0, bend_rad * bend_rad - chance * chance));
+}
 
 FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& options) {
   const Descent d = descent_of(profile, side);
@@ -274,10 +320,17 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
   Stretch w = smoothed_stretch(d, heights.low, heights.high, fit.grain);
   if (w.size() < kFewestPoints) w = rough;
   const double spacing = (d.u[w.last - 1] - d.u[w.first]) / static_cast<double>(w.size() - 1);
-  if (options.leave_apron_out) leave_apron_out(fit, w, d, crest);
-  fit_lines(fit, d, w);
+  std::vector<double> weight;
+  if (options.leave_apron_out) {
+    const double middle = (fit.window_from + fit.window_to) / 2 * crest;
+    weight = weights_of(d, w, middle, fit.grain);
+  }
+  fit_lines(fit, d, w, weight, spacing);
+  // A wall with a plate before it, of which all but the wall was taken for an apron.
+  if (-fit.least_squares.slope > kSteepest) return upright_end("this side falls off vertically");
   add_fit_error(fit, spacing, options.seed);
-  add_other_windows(fit, d, crest, fit.apron_cut ? fit.window_from * crest : 0);
+  add_other_windows(fit, d, crest, weight);
+  add_apron(fit, d, w, crest, spacing);
   return fit;
 }
 

@@ -36,7 +36,9 @@ struct Stretch {
 std::size_t column_at(const Descent& descent, double u);
 
 /// The least-squares line through the points of a stretch.
-LineFit line_through(const Descent& descent, const Stretch& stretch);
+/// @param weight  of all columns of the descent; empty: all alike
+LineFit line_through(const Descent& descent, const Stretch& stretch,
+                     const std::vector<double>& weight = {});
 
 /// Columns in which the lightly smoothed edge has come below the height `high` and not yet below
 /// `low`.
@@ -50,12 +52,21 @@ Stretch rough_stretch(const Descent& descent, double low, double high);
 /// FitFlank.BumpsDoNotTurnTheLine.
 Stretch smoothed_stretch(const Descent& descent, double low, double high, double grain);
 
+/// A foot that counts less than half.
+struct Apron {
+  double from = 0;            ///< of the crest's height: what lies below counts less than half
+  double length = 0;          ///< from there to the foot
+  bool is_high = false;       ///< it begins above a third of the height, and is no thin layer
+  double angle_with_rad = 0;  ///< of the same line if it counted in full
+};
+
 /// One side of the heap, fitted. Lengths in working pixels, along and above the ground line.
 struct FlankFit {
   FlankStatus status = FlankStatus::absent;
   std::string reason;
   std::vector<double> along;  ///< the points in the window
   std::vector<double> height;
+  std::vector<double> weight;  ///< how much each counts; empty: all alike
   LineFit least_squares;
   LineFit robust;
   LineFit shown;  ///< the one that gives the angle
@@ -64,15 +75,20 @@ struct FlankFit {
   double degrees_of_freedom = 1;  ///< independent stretches of the edge, less 2
   double window_spread_rad = 0;   ///< largest change when the window is moved
   double bend_rad = 0;            ///< upper half's angle minus lower half's
+  double apron_rad = 0;           ///< change of the angle if an apron counted in full
   double scatter = 0;             ///< robust standard deviation of the points around the line
   double grain = 0;               ///< grain size that was used
-  double window_from = 0;         ///< of the crest's height: the stretch that was fitted
+  double window_from = 0;         ///< of the crest's height: the stretch that counts at least half
   double window_to = 0;
   std::vector<WindowAngle> other_windows;
-  bool apron_cut = false;            ///< the window was shortened to leave an apron out
-  std::optional<double> high_apron;  ///< one begins at this part of the height: too high to cut off
-  bool frame_cut = false;            ///< the window was shortened because the frame ends
-  bool vertical = false;             ///< absent because this side is an upright face
+  std::optional<Apron> apron;
+  bool frame_cut = false;  ///< the window was shortened because the frame ends
+  bool vertical = false;   ///< absent because this side is an upright face
+
+  /// How many of the points, from the crest outwards, count at least half.
+  std::size_t counted() const;
+  /// By how much the flank bends beyond what the grains' scatter explains; 0 or above.
+  double sure_bend_rad() const;
 };
 
 struct FlankOptions {
@@ -83,9 +99,17 @@ struct FlankOptions {
   std::uint64_t seed = 1;
 };
 
-/// Fits lines to the stretch of a side on which the edge has the window's heights. The stretch ends
-/// higher where the frame cuts off up to a fifth of the window, and where an apron begins below a
-/// third of the heap's height.
+/// Fits lines to the stretch of a side on which the edge has the window's heights. It ends higher
+/// where the frame cuts off up to a fifth of the window.
+///
+/// An apron, a foot much flatter than the flank above it, counts little: a column whose slope, over
+/// three grains to either side, is below .4 of that of the window's upper half counts by the
+/// sixth power of its share of that .4, and never more than one nearer to the crest. So the line
+/// follows each change of the foot's shape without a leap. If all columns counted alike, a level
+/// apron that comes to be a little higher than the window's lower end would turn the line by ten
+/// degrees and more. The power is well above 3: an apron of some height is the longer the flatter
+/// it is, and its lever on a line's slope grows by the third power of its length. The convention is
+/// our own. Proved by ApronSteps.* and Apron.* in tests/vision/apron_test.cpp.
 FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& options);
 
 }  // namespace repose::vision

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <ceres/ceres.h>
@@ -32,8 +34,35 @@ struct VerticalDistance {
 
 }  // namespace
 
-double median(std::span<const double> values) {
+namespace {
+
+double weight_at(std::span<const double> weight, std::size_t i) {
+  return weight.empty() ? 1 : weight[i];
+}
+
+/// The least value that half of all weight does not exceed.
+double weighted_median(std::span<const double> values, std::span<const double> weight) {
+  std::vector<std::pair<double, double>> sorted;
+  double left = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sorted.emplace_back(values[i], weight[i]);
+    left += weight[i] / 2;
+  }
+  std::sort(sorted.begin(), sorted.end());
+  for (const auto& [value, counts] : sorted) {
+    left -= counts;
+    if (left <= 0) return value;
+  }
+  return sorted.back().first;
+}
+
+}  // namespace
+
+double median(std::span<const double> values, std::span<const double> weight) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (std::any_of(weight.begin(), weight.end(), [](double one) { return one != 1; })) {
+    return weighted_median(values, weight);
+  }
   std::vector<double> sorted(values.begin(), values.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -41,25 +70,29 @@ double median(std::span<const double> values) {
   return (*middle + *std::max_element(sorted.begin(), middle)) / 2;
 }
 
-LineFit least_squares_line(std::span<const double> x, std::span<const double> y) {
+LineFit least_squares_line(std::span<const double> x, std::span<const double> y,
+                           std::span<const double> weight) {
   const std::size_t n = std::min(x.size(), y.size());
-  if (n == 0) return {};
+  double all = 0;
+  for (std::size_t i = 0; i < n; ++i) all += weight_at(weight, i);
+  if (!(all > 0)) return {};
   double mean_x = 0;
   double mean_y = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    mean_x += x[i] / static_cast<double>(n);
-    mean_y += y[i] / static_cast<double>(n);
+    mean_x += weight_at(weight, i) * x[i] / all;
+    mean_y += weight_at(weight, i) * y[i] / all;
   }
   double sxx = 0;
   double sxy = 0;
   double syy = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    sxx += (x[i] - mean_x) * (x[i] - mean_x);
-    sxy += (x[i] - mean_x) * (y[i] - mean_y);
-    syy += (y[i] - mean_y) * (y[i] - mean_y);
+    const double counts = weight_at(weight, i);
+    sxx += counts * (x[i] - mean_x) * (x[i] - mean_x);
+    sxy += counts * (x[i] - mean_x) * (y[i] - mean_y);
+    syy += counts * (y[i] - mean_y) * (y[i] - mean_y);
   }
   // Points above one another: what is left of sxx is rounding.
-  if (sxx <= 1e-20 * static_cast<double>(n) * mean_x * mean_x || sxx == 0) {
+  if (sxx <= 1e-20 * all * mean_x * mean_x || sxx == 0) {
     return {.intercept = mean_y};
   }
   const double slope = sxy / sxx;
@@ -71,31 +104,43 @@ LineFit least_squares_line(std::span<const double> x, std::span<const double> y)
 namespace {
 
 /// 1.4826 times the median distance from the line: the standard deviation of normal residuals.
-double scale_around(const LineFit& line, std::span<const double> x, std::span<const double> y) {
+double scale_around(const LineFit& line, std::span<const double> x, std::span<const double> y,
+                    std::span<const double> weight) {
   std::vector<double> distance;
   for (std::size_t i = 0; i < x.size(); ++i) distance.push_back(std::abs(y[i] - line.y(x[i])));
-  return std::max(kMadToSigma * median(distance), kSmallestScale);
+  return std::max(kMadToSigma * median(distance, weight), kSmallestScale);
 }
 
 }  // namespace
 
-LineFit robust_line(std::span<const double> x, std::span<const double> y) {
-  const LineFit start = least_squares_line(x, y);
+LineFit robust_line(std::span<const double> x, std::span<const double> y,
+                    std::span<const double> weight, double smallest_scale) {
+  const LineFit start = least_squares_line(x, y, weight);
   if (x.size() < 4) return start;
-  double scale = scale_around(start, x, y);
+  const auto scale_of = [&](const LineFit& line) {
+    return std::max(scale_around(line, x, y, weight), smallest_scale);
+  };
+  double scale = scale_of(start);
 
   // Centred and scaled, so that both parameters have the same size.
   const double middle = (x.front() + x.back()) / 2;
   const double reach = std::max(std::abs(x.back() - x.front()) / 2, 1e-9);
   double line[2] = {start.y(middle), start.slope * reach};
-  ceres::Problem problem;
-  auto* tukey =
-      new ceres::LossFunctionWrapper(new ceres::TukeyLoss(kTukeyTuning * scale),
-                                     ceres::TAKE_OWNERSHIP);  // the problem owns the wrapper
+  ceres::LossFunctionWrapper tukey(new ceres::TukeyLoss(kTukeyTuning * scale),
+                                   ceres::TAKE_OWNERSHIP);
+  std::deque<ceres::ScaledLoss> lessened;  // of points that count in part; addresses stay
+  ceres::Problem::Options ownership;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
   for (std::size_t i = 0; i < x.size(); ++i) {
+    const double counts = weight_at(weight, i);
+    ceres::LossFunction* loss = &tukey;
+    if (counts != 1) {
+      loss = &lessened.emplace_back(&tukey, counts, ceres::DO_NOT_TAKE_OWNERSHIP);
+    }
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<VerticalDistance, 1, 2>(
                                  new VerticalDistance{(x[i] - middle) / reach, y[i]}),
-                             tukey, line);
+                             loss, line);
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
@@ -108,10 +153,10 @@ LineFit robust_line(std::span<const double> x, std::span<const double> y) {
     if (!summary.IsSolutionUsable()) return start;
     fit.slope = line[1] / reach;
     fit.intercept = line[0] - fit.slope * middle;
-    const double next = scale_around(fit, x, y);
+    const double next = scale_of(fit);
     if (std::abs(next - scale) <= kSettled * scale) break;
     scale = next;
-    tukey->Reset(new ceres::TukeyLoss(kTukeyTuning * scale), ceres::TAKE_OWNERSHIP);
+    tukey.Reset(new ceres::TukeyLoss(kTukeyTuning * scale), ceres::TAKE_OWNERSHIP);
   }
   return fit;
 }
@@ -122,20 +167,26 @@ constexpr int kResamples = 300;
 
 }  // namespace
 
-double independent_blocks(std::size_t points, std::size_t block) {
-  return std::max(
-      4.0, static_cast<double>(points) / static_cast<double>(std::max<std::size_t>(1, block)));
+double independent_blocks(double points, std::size_t block) {
+  return std::max(4.0, points / static_cast<double>(std::max<std::size_t>(1, block)));
 }
 
 double block_bootstrap_slope_error(std::span<const double> x, std::span<const double> residual,
-                                   std::size_t block, std::uint64_t seed) {
+                                   std::size_t block, std::uint64_t seed,
+                                   std::span<const double> weight) {
   const std::size_t n = x.size();
   if (n < 4) return 0;
   block = std::clamp<std::size_t>(block, 1, n / 2);
+  double all = 0;
+  for (std::size_t i = 0; i < n; ++i) all += weight_at(weight, i);
   double middle = 0;
-  for (const double value : x) middle += value / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) middle += weight_at(weight, i) * x[i] / all;
+  std::vector<double> lever;  // of each point on the slope
   double sxx = 0;
-  for (const double value : x) sxx += (value - middle) * (value - middle);
+  for (std::size_t i = 0; i < n; ++i) {
+    lever.push_back(weight_at(weight, i) * (x[i] - middle));
+    sxx += lever[i] * (x[i] - middle);
+  }
   if (sxx <= 0) return 0;
 
   std::mt19937_64 random(seed);  // the engine is the same everywhere; distributions are not
@@ -147,7 +198,7 @@ double block_bootstrap_slope_error(std::span<const double> x, std::span<const do
     for (std::size_t i = 0; i < n;) {
       const std::size_t from = random() % starts;
       for (std::size_t k = 0; k < block && i < n; ++k, ++i) {
-        shift += (x[i] - middle) * residual[from + k];
+        shift += lever[i] * residual[from + k];
       }
     }
     const double slope = shift / sxx;
@@ -156,7 +207,7 @@ double block_bootstrap_slope_error(std::span<const double> x, std::span<const do
   }
   const double variance =
       std::max(0.0, squares / kResamples - (sum / kResamples) * (sum / kResamples));
-  const double blocks = independent_blocks(n, block);
+  const double blocks = independent_blocks(all, block);
   return std::sqrt(variance * blocks / (blocks - 2));
 }
 

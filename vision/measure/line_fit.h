@@ -14,9 +14,11 @@ struct LineFit {
   double y(double x) const { return intercept + slope * x; }
 };
 
-/// Ordinary least squares of y on x: the line that minimises the sum of squared vertical distances.
-/// Needs two different x; else the slope is 0.
-LineFit least_squares_line(std::span<const double> x, std::span<const double> y);
+/// Least squares of y on x: the line that minimises the sum of squared vertical distances. Needs
+/// two different x; else the slope is 0.
+/// @param weight  how much each point's square counts; empty: all alike
+LineFit least_squares_line(std::span<const double> x, std::span<const double> y,
+                           std::span<const double> weight = {});
 
 /// Line under Tukey's biweight loss (Ceres), started at the least-squares line: points farther than
 /// about 4.7 robust standard deviations do not count. r2 is that of the start.
@@ -25,10 +27,14 @@ LineFit least_squares_line(std::span<const double> x, std::span<const double> y)
 /// until it settles: loose_particles widen the start's.
 /// Source: Huber & Ronchetti, Robust Statistics (2009), sec. 4.8 (biweight), 5.1 (median
 /// deviation).
-LineFit robust_line(std::span<const double> x, std::span<const double> y);
+/// @param weight          as for least_squares_line()
+/// @param smallest_scale  the scale does not fall below it
+LineFit robust_line(std::span<const double> x, std::span<const double> y,
+                    std::span<const double> weight = {}, double smallest_scale = 0);
 
 /// Median of a copy; NaN when empty.
-double median(std::span<const double> values);
+/// @param weight  how much each value counts; empty: all alike
+double median(std::span<const double> values, std::span<const double> weight = {});
 
 /// The median of absolute residuals times this is the standard deviation of a normal distribution.
 inline constexpr double kMadToSigma = 1.4826;
@@ -41,11 +47,13 @@ inline constexpr double kMadToSigma = 1.4826;
 /// the b independent blocks there are.
 /// Source: Davison & Hinkley, Bootstrap Methods and their Application (1997), sec. 8.2.3.
 /// Proved by tests/vision/bootstrap_test.cpp.
-/// @param x  ascending positions; @param residual  same size; points with weight 0 do not count.
+/// @param x  ascending positions; @param residual  same size
+/// @param weight  as for least_squares_line()
 double block_bootstrap_slope_error(std::span<const double> x, std::span<const double> residual,
-                                   std::size_t block, std::uint64_t seed);
+                                   std::size_t block, std::uint64_t seed,
+                                   std::span<const double> weight = {});
 
 /// How many independent blocks n points make; at least 4, so that an interval exists.
-double independent_blocks(std::size_t points, std::size_t block);
+double independent_blocks(double points, std::size_t block);
 
 }  // namespace repose::vision

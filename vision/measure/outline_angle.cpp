@@ -99,7 +99,7 @@ std::optional<OutlineFlank> flank_of(const Profile& profile, Side side, double s
   };
   return OutlineFlank{.angle_rad = fit.angle_rad,
                       .foot = foot * spacing,
-                      .line = {place(fit.along.front()), place(fit.along.back())}};
+                      .line = {place(fit.along.front()), place(fit.along[fit.counted() - 1])}};
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ double assumed_pitch_rad(const Reading& reading) {
   const Profile& profile = reading.profile;
   if (ground.behind) return kPitchOverEdge_rad;
   const bool goes_beyond_heap = profile.leaves_frame_left || profile.leaves_frame_right ||
-                                reading.left.apron_cut || reading.right.apron_cut;
+                                reading.left.apron || reading.right.apron;
   if (goes_beyond_heap || !ground.bow) return kPitchByEye_rad;
   return pitch_from_bow(*ground.bow);
 }
@@ -151,11 +151,16 @@ Flank flank_of(const Reading& reading, Side side, const WorkingPicture& work, do
   flank.least_squares_rad = correction.angle_rad(std::atan(-fit.least_squares.slope));
   flank.robust_rad = correction.angle_rad(std::atan(-fit.robust.slope));
   flank.r2 = fit.least_squares.r2;
-  flank.points = static_cast<int>(fit.along.size());
+  flank.points = static_cast<int>(fit.counted());
   flank.bend_rad = fit.bend_rad;
   flank.other_windows = fit.other_windows;
   for (WindowAngle& window : flank.other_windows) {
     window.angle_rad = correction.angle_rad(window.angle_rad);
+  }
+  if (fit.apron) {
+    flank.apron = FlankApron{.from = fit.apron->from,
+                             .length_px = fit.apron->length * work.shrink,
+                             .angle_with_rad = correction.angle_rad(fit.apron->angle_with_rad)};
   }
 
   const GroundFrame ground(reading.body.ground);
@@ -164,12 +169,13 @@ Flank flank_of(const Reading& reading, Side side, const WorkingPicture& work, do
     const double along = side == Side::left ? crest - out : crest + out;
     return work.in_picture(ground.picture(along, height));
   };
-  for (std::size_t i = 0; i < fit.along.size(); ++i) {
+  for (std::size_t i = 0; i < fit.counted(); ++i) {
     flank.edge.push_back(place(fit.along[i], fit.height[i]));
   }
   const LineFit& line = fit.shown;
-  flank.line = Segment{place(fit.along.front(), line.y(fit.along.front())),
-                       place(fit.along.back(), line.y(fit.along.back()))};
+  const double end = fit.along[fit.counted() - 1];
+  flank.line =
+      Segment{place(fit.along.front(), line.y(fit.along.front())), place(end, line.y(end))};
   return flank;
 }
 

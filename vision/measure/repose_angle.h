@@ -83,13 +83,20 @@ struct WindowAngle {
   double angle_rad = 0;
 };
 
+/// A foot so much flatter than the flank above it that it counts less than half in the line.
+struct FlankApron {
+  double from = 0;            ///< of the heap's height: where it begins
+  double length_px = 0;       ///< from there to the foot
+  double angle_with_rad = 0;  ///< of this side if the apron counted in full
+};
+
 struct Flank {
   FlankStatus status = FlankStatus::absent;
   std::string reason;               ///< why it is absent or truncated
   bool leaves_frame = false;        ///< the picture's edge hides its foot
   std::optional<double> angle_rad;  ///< the method's angle of this side
   /// Stretch that was fitted, as fractions of the heap's height: the options' window, or less of it
-  /// where the frame cuts the side off or an apron is left out.
+  /// where the frame cuts the side off or an apron begins.
   std::optional<std::array<double, 2>> window_used;
   std::optional<double> uncertainty_rad;    ///< 95 % half-width
   std::optional<double> least_squares_rad;  ///< ordinary least squares, y on x
@@ -100,8 +107,9 @@ struct Flank {
   /// flank.
   std::optional<double> bend_rad;
   std::vector<WindowAngle> other_windows;
-  std::optional<Segment> line;  ///< the fitted line over its window [px]
-  std::vector<Point> edge;      ///< the edge points it was fitted to [px]
+  std::optional<FlankApron> apron;  ///< empty: none within the window
+  std::optional<Segment> line;      ///< the fitted line over the stretch that was fitted [px]
+  std::vector<Point> edge;          ///< the edge points it was fitted to [px]
 };
 
 /// The angle by another definition people use. Always named beside the number.

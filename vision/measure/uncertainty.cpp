@@ -30,11 +30,14 @@ double grains_95(const FlankFit& left, const FlankFit& right) {
   return student_95(freedom) * std::sqrt(l + r) / 2;
 }
 
-/// What moving the window changes beyond what the grains' scatter explains.
+/// What moving the window changes beyond what the grains' scatter explains. The halves of a bent
+/// flank are steeper and flatter than its line by about half of the bend: so far a person's choice
+/// of the window may move the number.
 double window_95(const FlankFit& flank) {
   const double spread = flank.window_spread_rad;
   const double chance = 2 * flank.fit_error_rad;
-  return kWindowFraction * std::sqrt(std::max(0.0, spread * spread - chance * chance));
+  const double sure = std::sqrt(std::max(0.0, spread * spread - chance * chance));
+  return std::max(kWindowFraction * sure, std::min(sure, flank.sure_bend_rad() / 2));
 }
 
 /// What a window that lies too high may change: by how much the flank bends over half of it.
@@ -44,8 +47,8 @@ double unseen_foot_95(const FlankFit& flank, const Ground& ground) {
 
 /// What an edge that is only roughly known may turn the line: both its ends may be off.
 double place_95(const FlankFit& flank, const Segmentation& segmentation) {
-  if (segmentation.deviation_px <= 0 || flank.along.size() < 2) return 0;
-  const double run = std::abs(flank.along.back() - flank.along.front());
+  if (segmentation.deviation_px <= 0 || flank.counted() < 2) return 0;
+  const double run = std::abs(flank.along[flank.counted() - 1] - flank.along.front());
   const double length = run * std::hypot(1, flank.robust.slope);
   return base::kNormal95 * std::numbers::sqrt2 * segmentation.deviation_px / std::max(1.0, length);
 }
@@ -59,7 +62,8 @@ double combined(std::initializer_list<double> parts) {
 double side_95(const FlankFit& flank, const Reading& reading, double disagreement_rad) {
   if (flank.status != FlankStatus::ok) return 0;
   const Ground& ground = reading.body.ground;
-  return combined({grains_95(flank), window_95(flank), unseen_foot_95(flank, ground),
+  return flank.apron_rad +
+         combined({grains_95(flank), window_95(flank), unseen_foot_95(flank, ground),
                    place_95(flank, reading.segmentation), base::kNormal95 * ground.deviation_rad,
                    disagreement_rad});
 }
@@ -75,13 +79,15 @@ Uncertainty uncertainty_of(const SelectedCandidate& choice) {
   const bool left = best.left.status == FlankStatus::ok;
   const bool right = best.right.status == FlankStatus::ok;
   if (left && right) {
-    u.mean_rad = combined(
-        {grains_95(best.left, best.right), (window_95(best.left) + window_95(best.right)) / 2,
-         (unseen_foot_95(best.left, ground) + unseen_foot_95(best.right, ground)) / 2,
-         std::hypot(place_95(best.left, best.segmentation),
-                    place_95(best.right, best.segmentation)) /
-             2,
-         choice.disagreement_rad});
+    u.mean_rad =
+        (best.left.apron_rad + best.right.apron_rad) / 2 +
+        combined({grains_95(best.left, best.right),
+                  (window_95(best.left) + window_95(best.right)) / 2,
+                  (unseen_foot_95(best.left, ground) + unseen_foot_95(best.right, ground)) / 2,
+                  std::hypot(place_95(best.left, best.segmentation),
+                             place_95(best.right, best.segmentation)) /
+                      2,
+                  choice.disagreement_rad});
   } else {
     u.mean_rad = left ? u.left_rad : u.right_rad;
   }

@@ -46,17 +46,12 @@ constexpr double kDoubtfulBend_rad = 10 * kDegree;
 
 constexpr double kUncoveredSpread_rad = 1 * kDegree;  // beyond the interval
 
-constexpr double kHalvesPerWhole = 4;  // standard error of the halves' difference, of the line's:
-
-// 2^1.5 for half the length, times the root of 2 for two
-constexpr double kByChance = 2;  // standard errors that the grains' scatter explains
-
 std::string_view name_of(Side side) { return side == Side::left ? "left" : "right"; }
 
-/// How far the flank bends beyond what the grains' scatter explains.
-double sure_bend_rad(const FlankFit& flank) {
-  const double chance = kByChance * kHalvesPerWhole * flank.fit_error_rad;
-  return std::sqrt(std::max(0.0, flank.bend_rad * flank.bend_rad - chance * chance));
+/// Largest change of the angle with what counts as flank: another window, or a high foot with it.
+double spread_rad(const FlankFit& flank) {
+  const bool is_high = flank.apron && flank.apron->is_high;
+  return is_high ? std::max(flank.window_spread_rad, flank.apron_rad) : flank.window_spread_rad;
 }
 
 /// Why a side is no flank, and what to do; empty when it is one, or absent.
@@ -82,12 +77,12 @@ std::string reason_against(const FlankFit& flank, Side side) {
         "flank. Fix: check that the picture shows a heap.",
         name, -to_degrees(flank.bend_rad));
   }
-  if (flank.window_spread_rad > kLargestSpread_rad) {
+  if (spread_rad(flank) > kLargestSpread_rad) {
     return fmt::format(
         "the {} side's angle changes by {:.0f} degrees with the window: not a straight flank, or a "
         "heap and its plate taken for one object. Fix: use a level camera and a plate of a "
         "different colour from the grains.",
-        name, to_degrees(flank.window_spread_rad));
+        name, to_degrees(spread_rad(flank)));
   }
   if (flank.least_squares.r2 < kMinR2) {
     return fmt::format(
@@ -115,26 +110,27 @@ void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
                      "height.",
                      name, 100 * flank.window_from));
   }
-  if (flank.apron_cut) {
+  const Flank& shown = side == Side::left ? result.left : result.right;
+  if (flank.apron && shown.apron) {
     note(result, "apron_left_out",
-         fmt::format("A thin apron at the {} foot is left out: the line starts at {:.0f} % of the "
-                     "height.",
-                     name, 100 * flank.window_from));
+         fmt::format("The {} foot is an apron, much flatter than the flank above it, and hardly "
+                     "counts: the line starts at {:.0f} % of the height. If it counted in full, "
+                     "this side would have {:.1f} degrees; the interval covers that.",
+                     name, 100 * flank.apron->from, to_degrees(shown.apron->angle_with_rad)));
+    if (flank.apron->is_high) {
+      flag(result, "high_apron",
+           fmt::format("On the {} the foot levels out at {:.0f} % of the height: the line is that "
+                       "of the part above, which is not most of the flank.",
+                       name, 100 * flank.apron->from));
+    }
   }
-  if (flank.high_apron) {
-    flag(result, "high_apron",
-         fmt::format("On the {} the foot levels out at {:.0f} % of the height, too high to be left "
-                     "out: the angle is that of flank and foot together.",
-                     name, 100 * *flank.high_apron));
-  }
-  if (sure_bend_rad(flank) > kDoubtfulBend_rad) {
+  if (flank.sure_bend_rad() > kDoubtfulBend_rad) {
     flag(result, "bent_flank",
          fmt::format("The {} flank is {}: its slope differs by {:.0f} degrees between its lower "
                      "and upper half, so one angle does not describe it.",
                      name, flank.bend_rad > 0 ? "concave" : "convex",
                      std::abs(to_degrees(flank.bend_rad))));
   }
-  const Flank& shown = side == Side::left ? result.left : result.right;
   if (flank.window_spread_rad > shown.uncertainty_rad.value_or(0) + kUncoveredSpread_rad) {
     flag(result, "window_sensitive",
          fmt::format("The {} angle changes by {:.1f} degrees with the window, more than its "
@@ -156,6 +152,8 @@ constexpr double kPitchTolerance_rad = 6 * kDegree;
 constexpr double kMaxOfUnlike = 0.5;  // confidence in what may be no heap
 constexpr double kWideInterval_rad = 5 * kDegree;
 constexpr double kTooUnequal_rad = 15 * kDegree;
+constexpr double kHollow_rad = 3 * kDegree;    // as much as drawn straight flanks never seem to be
+constexpr double kFarApart_rad = 3 * kDegree;  // definitions, beyond the interval
 
 // Warnings to know of.
 constexpr double kFewGrains = 10;
@@ -263,31 +261,56 @@ void warn_of_likeness(ReposeAngle& result, const SelectedCandidate& choice,
   result.confidence = std::min(result.confidence, kMaxOfUnlike);
 }
 
-/// Adds what the other common definitions say where that lies outside the interval.
-void warn_of_definitions(ReposeAngle& result) {
+/// Whether a side is concave beyond what its grains explain.
+bool is_hollow(const FlankFit& flank) {
+  return flank.status == FlankStatus::ok && flank.bend_rad > 0 &&
+         flank.sure_bend_rad() > kHollow_rad;
+}
+
+/// What chance may move the tangent at half height by: two standard errors of a line over a third
+/// of the window, which are 3^1.5 of the window's.
+double tangent_chance_rad(const Reading& best) {
+  constexpr double kThirdsPerWhole = 5.2, kByChance = 2;
+  return kByChance * kThirdsPerWhole * std::max(best.left.fit_error_rad, best.right.fit_error_rad);
+}
+
+/// Adds what the other common definitions say where that lies outside the interval. A rounded crest
+/// and a toe move some of them on every heap; a hollow flank leaves open which one is meant.
+void warn_of_definitions(ReposeAngle& result, const Reading& best) {
   const double angle = *result.angle_rad;
   double least = angle;
   double most = angle;
+  double sure = 0;
   for (const NamedAngle& other : result.definitions) {
     least = std::min(least, other.angle_rad);
     most = std::max(most, other.angle_rad);
+    const bool is_tangent = other.name == "half_height_tangent";
+    const double chance = is_tangent ? tangent_chance_rad(best) : 0;
+    sure = std::max(sure, std::abs(other.angle_rad - angle) - chance);
   }
-  if (std::max(most - angle, angle - least) <= *result.uncertainty_rad) return;
-  note(result, "definitions_differ",
+  const double interval = *result.uncertainty_rad;
+  if (std::max(most - angle, angle - least) <= interval) return;
+  const bool is_open =
+      sure > interval + kFarApart_rad && (is_hollow(best.left) || is_hollow(best.right));
+  const auto tell = is_open ? flag : note;
+  tell(result, "definitions_differ",
        fmt::format("Other definitions of the angle give {:.1f} to {:.1f} degrees: state yours when "
                    "you publish.",
                    to_degrees(least), to_degrees(most)));
 }
 
-void warn_of_angle(ReposeAngle& result) {
+void warn_of_angle(ReposeAngle& result, const Reading& best) {
   if (*result.uncertainty_rad > kWideInterval_rad) {
+    const double apron_rad = std::max(best.left.apron_rad, best.right.apron_rad);
+    const bool is_by_apron = apron_rad > *result.uncertainty_rad / 2;
     flag(result, "wide_interval",
-         fmt::format(
-             "The angle is uncertain by ±{:.1f} degrees: measure more pictures of this heap, or "
-             "a heap of more grains.",
-             to_degrees(*result.uncertainty_rad)));
+         fmt::format("The angle is uncertain by ±{:.1f} degrees: {}.",
+                     to_degrees(*result.uncertainty_rad),
+                     is_by_apron ? "state whether the apron belongs to it, or make the heap on a "
+                                   "base as wide as the heap alone"
+                                 : "measure more pictures of this heap, or a heap of more grains"));
   }
-  warn_of_definitions(result);
+  warn_of_definitions(result, best);
 }
 
 void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions& options) {
@@ -418,7 +441,7 @@ void judge(ReposeAngle& result, const SelectedCandidate& choice, const MeasureOp
   }
   warn_of_hints(result, options);
   warn_of_likeness(result, choice, options);
-  warn_of_angle(result);
+  warn_of_angle(result, choice.best);
   warn_of_size(result, choice.best, options);
   warn_of_scene(result, choice, options);
   warn_of_unequal_flanks(result);

@@ -396,7 +396,7 @@ std::vector<std::vector<double>> numbers_of(const Table& table,
     if (is_in_other_unit) {
       errors.add({.where = table.name,
                   .value = fmt::format("has {}, not {}", guess, wanted.name),
-                  .fix = fmt::format("convert its numbers, and name it {}.", wanted.name)});
+                  .fix = fmt::format("name it {}, with its numbers in that unit.", wanted.name)});
       continue;
     }
     errors.add({.where = table.name,
