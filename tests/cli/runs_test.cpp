@@ -1,0 +1,58 @@
+// Runs of another program.
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tests/calibrate/made_up_table.h"
+#include "tests/cli/command_test.h"
+
+namespace repose::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct RunsCommands : CommandTest {
+  RunsCommands() : CommandTest({}) {
+    folder_.write("study.toml", calibrate::test::made_up_study());
+    folder_.write("runs.csv", calibrate::test::made_up_rows());
+  }
+};
+
+TEST_F(RunsCommands, CalibrateGivesParametersTheirPlainNames) {
+  const json found = result({"calibrate", "study.toml", "--runs", "runs.csv", "--out", "out"});
+  EXPECT_EQ(found["parameters"][0]["name"], "sliding");
+  EXPECT_TRUE(found["verdict"].is_null());
+  EXPECT_TRUE(found["observables"][0]["verification"].is_null());
+  EXPECT_EQ(found["provenance"]["table"]["rows"], 30);
+  EXPECT_FALSE(found["provenance"].contains("clump"));
+  EXPECT_EQ(json::parse(text("out/result.json")), found);
+  EXPECT_EQ(run({"report", "out"}).exit_code, 0);
+  EXPECT_THAT(text("out/report.html"), HasSubstr("Not checked in simulations"));
+  const Finished exported = run({"export", "out", "--to", "liggghts"});
+  EXPECT_EQ(exported.exit_code, 2);
+  EXPECT_THAT(exported.err, HasSubstr("made with another program"));
+}
+
+TEST_F(RunsCommands, CalibrateSaysWhatIsNotChecked) {
+  const Finished done = run({"calibrate", "study.toml", "--runs", "runs.csv"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("Not checked in simulations"), HasSubstr("undetermined"),
+                              Not(HasSubstr("repose export"))));
+  EXPECT_LE(longest_line(done.out), 100U);
+  EXPECT_TRUE(exists("study_calibration/result.json"));
+}
+
+TEST_F(RunsCommands, CalibrateRefusesWhatBelongsToSimulations) {
+  const Finished done =
+      run({"calibrate", "study.toml", "--runs", "runs.csv", "--budget", "standard", "--dry-run"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("--budget"), HasSubstr("--dry-run"), HasSubstr("Fix: ")));
+  const Finished without = run({"calibrate", "study.toml"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.err, HasSubstr("--runs runs.csv"));
+}
+
+}  // namespace
+}  // namespace repose::testing
