@@ -54,5 +54,21 @@ TEST_F(RunsCommands, CalibrateRefusesWhatBelongsToSimulations) {
   EXPECT_THAT(without.err, HasSubstr("--runs runs.csv"));
 }
 
+TEST_F(RunsCommands, PredictTellsReadingsAtPoints) {
+  folder_.write("points.csv", std::string("sliding,rolling,restitution\n.4,.13,.5\n.2,.2,.3\n"));
+  const json found = result({"predict", "study.toml", "--runs", "runs.csv", "--at", "points.csv"});
+  ASSERT_EQ(found["points"].size(), 2U);
+  const json& angle = found["points"][0]["angle"];
+  EXPECT_NEAR(angle["value"].get<double>(), 20, 1);
+  EXPECT_LT(angle["interval"][0].get<double>(), 20);
+  EXPECT_GT(angle["interval"][1].get<double>(), 20);
+  EXPECT_EQ(found["at"][1]["rolling"], .2);
+  const Finished shown = run({"predict", "study.toml", "--runs", "runs.csv", "--at", "points.csv"});
+  EXPECT_THAT(shown.out, HasSubstr("nothing was simulated"));
+  const Finished without = run({"predict", "study.toml", "--at", "points.csv"});
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.err, HasSubstr("no table is given"));
+}
+
 }  // namespace
 }  // namespace repose::testing

@@ -37,6 +37,7 @@ OUTPUTS = {
     "plan": ["plan drops.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
     "calibrate": ["calibrate study.toml --out hazelnut --json -",
                   "calibrate grain.toml --runs grain_runs.csv --json -"],
+    "predict": ["predict grain.toml --runs grain_runs.csv --at grain_points.csv --json -"],
 }
 SECTIONS = ["study", "particle", "wall", "wall.tube", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
             "experiment", "experiment.drop", "experiment.tilt", "experiment.roll", "experiment.heap",
