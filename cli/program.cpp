@@ -174,10 +174,11 @@ Arguments parse_arguments(int count, const char* const* words) {
 
 std::vector<Command> all_commands() {
   std::vector<Command> commands = {
-      measure_command(),   board_command(),    camera_command(), compare_command(), track_command(),
-      shape_command(),     simulate_command(), render_command(), new_command(),     plan_command(),
-      calibrate_command(), report_command(),   export_command(), predict_command(), bench_command(),
-      design_command(),    regress_command(),  verify_command()};
+      measure_command(), board_command(),   camera_command(),    compare_command(),
+      track_command(),   shape_command(),   simulate_command(),  render_command(),
+      new_command(),     plan_command(),    calibrate_command(), report_command(),
+      export_command(),  predict_command(), ask_command(),       bench_command(),
+      design_command(),  regress_command(), verify_command()};
   const std::vector<Command> of_help = help_commands(commands);
   commands.insert(commands.end(), of_help.begin(), of_help.end());
   return commands;

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "calibrate/runs/next_runs.h"
 #include "calibrate/runs/predicted_readings.h"
 #include "calibrate/runs/table_fit.h"
 #include "calibrate/statistics/table/table.h"
@@ -18,7 +19,10 @@ namespace repose::calibrate {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 class TableNext : public ::testing::Test {
@@ -38,6 +42,7 @@ class TableNext : public ::testing::Test {
 };
 
 using PredictedReadings = TableNext;
+using NextRunsTest = TableNext;
 
 TEST_F(PredictedReadings, IntervalsHoldFreshRunsAndTheTruth) {
   const KnownRuns of =
@@ -82,6 +87,80 @@ TEST_F(PredictedReadings, PlacesOutsideTheBoundsAreRefused) {
   const auto inside =
       folder_.write("points.csv", std::string("restitution;sliding;rolling\n0,5;0,4;0,1\n"));
   EXPECT_EQ(places_in(inside, of.parameters).front(), (std::vector{.4, .1, .5}));
+}
+
+TEST_F(NextRunsTest, BeginEvenlyOverTheBounds) {
+  const TableStudy of = study(test::made_up_study());
+  const NextRuns next = next_runs(of, {}, 12);
+  ASSERT_EQ(next.runs.size(), 12U);
+  std::vector<double> sliding;
+  for (const NextRun& run : next.runs) {
+    sliding.push_back(run.values[0]);
+    EXPECT_THAT(run.reason, Not(IsEmpty()));
+  }
+  EXPECT_EQ(next.runs[5].values, next.runs[4].values) << "once more, to see what chance does";
+  EXPECT_LT(std::ranges::min(sliding), .2);
+  EXPECT_GT(std::ranges::max(sliding), .6);
+  EXPECT_THAT(next.settled, IsEmpty());
+  EXPECT_EQ(next_runs(of, {}, 12).runs[7].values, next.runs[7].values);
+}
+
+TEST_F(NextRunsTest, KeepAwayFromThoseThatThereAre) {
+  const TableStudy of = study(test::made_up_study());
+  const TableRuns few = runs(of, test::made_up_rows({.rows = 5}));
+  const NextRuns next = next_runs(of, few, 6);
+  ASSERT_EQ(next.runs.size(), 6U);
+  for (const NextRun& run : next.runs) {
+    for (const std::vector<double>& there : few.places) {
+      const double off =
+          std::hypot((run.values[0] - there[0]) / .6, (run.values[1] - there[1]) / .3,
+                     (run.values[2] - there[2]) / .6);
+      EXPECT_GT(off, .2);
+    }
+  }
+}
+
+TEST_F(NextRunsTest, GoWhereParametersFit) {
+  const TableStudy of =
+      study(std::string(test::kMadeUpParameters) +
+            "[measured]\nangle = { mean = 20, sd = 0.2, n = 1, unit = \"deg\" }\n");
+  const TableRuns there = runs(of, test::made_up_rows({.rows = 16}));
+  const NextRuns next = next_runs(of, there, 8);
+  ASSERT_EQ(next.runs.size(), 8U);
+  const auto miss = [](const std::vector<double>& at) {
+    return std::abs(test::angle_of(at[0], at[1]) - test::kMeasuredAngle);
+  };
+  double chosen = 0, evenly = 0;
+  for (std::size_t k = 0; k < 7; ++k) chosen += miss(next.runs[k].values) / 7;  // one is elsewhere
+  for (const std::vector<double>& at : test::made_up_places(70)) evenly += miss(at) / 70;
+  EXPECT_LT(chosen, .65 * evenly);
+  EXPECT_THAT(next.runs[7].reason, HasSubstr("far from all other runs"));
+  EXPECT_THAT(next.runs.front().reason, HasSubstr("angle is known to ±"));
+}
+
+TEST_F(NextRunsTest, StopWhereFurtherOnesWouldNotNarrow) {
+  const TableStudy of = study(std::string(test::kMadeUpParameters) +
+                              "[measured]\nangle = { mean = 20, sd = 4, n = 1, unit = \"deg\" }\n");
+  const NextRuns next = next_runs(of, runs(of, test::made_up_rows()), 6);
+  EXPECT_THAT(next.runs, IsEmpty());
+  ASSERT_THAT(next.settled, Not(IsEmpty()));
+  EXPECT_THAT(next.settled.front(), HasSubstr("No further run would narrow"));
+  EXPECT_THAT(next.settled, Contains(HasSubstr("add density, a column of the table")));
+}
+
+TEST_F(NextRunsTest, MakeATableToBeFilledInAndRead) {
+  const TableStudy of = study(test::made_up_study());
+  const NextRuns next = next_runs(of, {}, 8);
+  const std::string text = next_runs_csv(of, {}, next.runs);
+  EXPECT_THAT(text, HasSubstr("sliding,rolling,restitution,angle,reason\n"));
+  const TableRuns empty = runs(of, text);
+  EXPECT_EQ(empty.without_reading, 8);
+  EXPECT_EQ(empty.failed, 0) << "nobody said that they failed";
+  EXPECT_EQ(empty.places[0], next.runs[0].values);
+  // With the columns of the table that it goes to.
+  const TableRuns there = runs(of, test::made_up_rows({.rows = 4}));
+  EXPECT_THAT(next_runs_csv(of, there, next.runs),
+              HasSubstr("sliding,rolling,restitution,angle,angle_sd,density,n,reason\n"));
 }
 
 }  // namespace

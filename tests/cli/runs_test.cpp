@@ -1,4 +1,4 @@
-// Runs of another program.
+// repose calibrate --runs, predict and ask: runs of another program.
 #include <string>
 
 #include <gmock/gmock.h>
@@ -68,6 +68,20 @@ TEST_F(RunsCommands, PredictTellsReadingsAtPoints) {
   const Finished without = run({"predict", "study.toml", "--at", "points.csv"});
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_THAT(without.err, HasSubstr("no table is given"));
+}
+
+TEST_F(RunsCommands, AskWritesTheNextRuns) {
+  const Finished start = run({"ask", "study.toml", "--count", "8", "--out", "next.csv"});
+  EXPECT_EQ(start.exit_code, 0) << start.err;
+  EXPECT_THAT(text("next.csv"), HasSubstr("sliding,rolling,restitution,angle,reason\n"));
+  const Finished more = run({"ask", "study.toml", "--runs", "runs.csv", "--runs", "next.csv",
+                             "--count", "4", "--out", "more.csv"});
+  EXPECT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_THAT(more.err, HasSubstr("No reading: 8 of 38 rows"));
+  const Finished wrong = run({"ask", "study.toml", "--count", "0", "--out", "next.csv"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  folder_.write("mine.csv", std::string("a,b\n1,2\n"));
+  EXPECT_EQ(run({"ask", "study.toml", "--out", "mine.csv"}).exit_code, 2) << "it is somebody's";
 }
 
 }  // namespace
