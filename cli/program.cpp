@@ -29,6 +29,7 @@
 #include "cli/plan/plan.h"
 #include "cli/render/render_options.h"
 #include "cli/report/report.h"
+#include "cli/runs/runs_commands.h"
 #include "cli/shape/shape.h"
 #include "cli/simulate/simulate_command.h"
 #include "cli/statistics/statistics_commands.h"
@@ -172,12 +173,12 @@ Arguments parse_arguments(int count, const char* const* words) {
 }  // namespace
 
 std::vector<Command> all_commands() {
-  std::vector<Command> commands = {measure_command(),  board_command(),     camera_command(),
-                                   compare_command(),  track_command(),     shape_command(),
-                                   simulate_command(), render_command(),    new_command(),
-                                   plan_command(),     calibrate_command(), report_command(),
-                                   export_command(),   bench_command(),     design_command(),
-                                   regress_command(),  verify_command()};
+  std::vector<Command> commands = {
+      measure_command(), board_command(),   camera_command(),    compare_command(),
+      track_command(),   shape_command(),   simulate_command(),  render_command(),
+      new_command(),     plan_command(),    calibrate_command(), report_command(),
+      export_command(),  predict_command(), ask_command(),       bench_command(),
+      design_command(),  regress_command(), verify_command()};
   const std::vector<Command> of_help = help_commands(commands);
   commands.insert(commands.end(), of_help.begin(), of_help.end());
   return commands;

@@ -238,9 +238,14 @@ std::string Advisor::unmeasured_advice(std::size_t parameter) const {
 Advice Advisor::addition_advice(std::size_t parameter) const {
   const Best best = best_of(offered_, parameter);
   if (best.unmeasured != nullptr) {
-    return {fmt::format("add [experiment.{}] and its readings to the study: {}",
-                        best.unmeasured->experiment, worth_of_ten(best.fraction)),
-            {best.unmeasured->experiment}};
+    const std::string& name = best.unmeasured->experiment;
+    const auto offer = std::ranges::find(problem_.offers, name,
+                                         [](const Offer& one) { return one.experiment.name; });
+    const std::string what =
+        offer->heading.empty() ? fmt::format("[experiment.{}]", name) : offer->heading;
+    return {
+        fmt::format("add {} and its readings to the study: {}", what, worth_of_ten(best.fraction)),
+        {name}};
   }
   const std::vector<std::string>& tellers = problem_.parameters[parameter].identified_by;
   const bool is_told = std::ranges::any_of(tellers, [&](const std::string& experiment) {

@@ -20,10 +20,12 @@ namespace repose::calibrate {
 ///
 /// k(x, x') = signal^2 M(r) + trend^2 s.s' + level^2, with s = (x - 1/2) / length, r = |s - s'|,
 /// M(r) = (1 + sqrt5 r + 5/3 r^2) exp(-sqrt5 r): Matern 5/2, Rasmussen and Williams (2006) eq.
-/// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. On the runs' diagonal is noise^2 besides.
+/// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. On the runs' diagonal is noise^2 besides,
+/// by the number of runs that a value is the mean of.
 class Covariance {
  public:
-  explicit Covariance(const Hyperparameters& hyper);
+  /// @param counts  of runs that each value is the mean of; empty: of one
+  explicit Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts = {});
 
   /// Between all runs (rows of x), noise included.
   Eigen::MatrixXd of_runs(const Eigen::MatrixXd& x) const;
@@ -45,6 +47,7 @@ class Covariance {
   double signal2_;
   double trend2_;
   double noise2_;
+  Eigen::ArrayXd counts_;
 };
 
 namespace {
@@ -76,12 +79,13 @@ Eigen::MatrixXd as_rows(const std::vector<Point>& points) {
 
 }  // namespace
 
-Covariance::Covariance(const Hyperparameters& hyper)
+Covariance::Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts)
     : length_(Eigen::Map<const Eigen::RowVectorXd>(hyper.length.data(),
                                                    static_cast<Eigen::Index>(hyper.length.size()))),
       signal2_(hyper.signal * hyper.signal),
       trend2_(hyper.trend * hyper.trend),
-      noise2_(hyper.noise * hyper.noise) {}
+      noise2_(hyper.noise * hyper.noise),
+      counts_(counts) {}
 
 Eigen::MatrixXd Covariance::scaled(const Eigen::MatrixXd& x) const {
   return (x.array() - .5).rowwise() / length_.array();
@@ -95,7 +99,7 @@ Eigen::MatrixXd Covariance::of_runs(const Eigen::MatrixXd& x) const {
       k(i, j) += kLevel2 + signal2_ * matern((s.row(i) - s.row(j)).norm());
       k(j, i) = k(i, j);
     }
-    k(j, j) += kLevel2 + signal2_ + noise2_;
+    k(j, j) += kLevel2 + signal2_ + (counts_.size() > 0 ? noise2_ / counts_(j) : noise2_);
   }
   return k;
 }
@@ -148,7 +152,9 @@ Eigen::VectorXd Covariance::weighted_gradient(const Eigen::MatrixXd& x,
     gradient(c) -= 2 * sum;
     gradient(d + 1) += 2 * sum;
   }
-  gradient(d + 2) = 2 * noise2_ * weight.trace();
+  const double noise_weight =
+      counts_.size() > 0 ? (weight.diagonal().array() / counts_).sum() : weight.trace();
+  gradient(d + 2) = 2 * noise2_ * noise_weight;
   return gradient;
 }
 
@@ -183,18 +189,31 @@ std::vector<double> to_logs(const Hyperparameters& hyper) {
   return logs;
 }
 
+Eigen::ArrayXd counts_of(const MeansOfRuns& means) {
+  return Eigen::Map<const Eigen::ArrayXd>(means.counts.data(),
+                                          static_cast<Eigen::Index>(means.counts.size()));
+}
+
 /// Minus the logarithm of the posterior density, and its gradient.
 class MinusLogPosterior : public ceres::FirstOrderFunction {
  public:
-  MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool is_stochastic)
-      : x_(x), y_(y), priors_(static_cast<std::size_t>(x.cols()) + 3) {
+  /// @param means  in the unit of `y`
+  MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool is_stochastic,
+                    const MeansOfRuns& means)
+      : x_(x),
+        y_(y),
+        counts_(counts_of(means)),
+        squares_(means.squares),
+        df_(means.df),
+        priors_(static_cast<std::size_t>(x.cols()) + 3) {
     priors_.back() = is_stochastic ? LogNormal{std::log(.1), 1.5} : LogNormal{std::log(.001), 1};
   }
 
   int NumParameters() const override { return static_cast<int>(priors_.size()); }
 
   bool Evaluate(const double* logs, double* cost, double* gradient) const override {
-    const Covariance covariance(from_logs(logs, x_.cols()));
+    const Hyperparameters hyper = from_logs(logs, x_.cols());
+    const Covariance covariance(hyper, counts_);
     const Eigen::LLT<Eigen::MatrixXd> root(covariance.of_runs(x_));
     if (root.info() != Eigen::Success) return false;
     const Eigen::VectorXd alpha = root.solve(y_);
@@ -205,6 +224,12 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
       weight -= alpha * alpha.transpose();
       Eigen::Map<Eigen::VectorXd>(gradient, NumParameters()) =
           .5 * covariance.weighted_gradient(x_, weight);
+    }
+    if (df_ > 0) {
+      // Of the runs about their means: squares ~ noise^2 chi-square(df).
+      const double ratio = squares_ / (hyper.noise * hyper.noise);
+      *cost += df_ * std::log(hyper.noise) + .5 * ratio;
+      if (gradient != nullptr) gradient[NumParameters() - 1] += df_ - ratio;
     }
     for (std::size_t i = 0; i < priors_.size(); ++i) {
       const double off = (logs[i] - priors_[i].log_median) / priors_[i].log_sd;
@@ -217,6 +242,9 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
  private:
   const Eigen::MatrixXd& x_;
   const Eigen::VectorXd& y_;
+  Eigen::ArrayXd counts_;
+  double squares_;
+  double df_;
   std::vector<LogNormal> priors_;
 };
 
@@ -238,10 +266,10 @@ std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool is_stochas
 /// starts.
 SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
                                     bool is_stochastic, const std::optional<Hyperparameters>& start,
-                                    int starts) {
+                                    int starts, const MeansOfRuns& means) {
   std::vector<Hyperparameters> begins = own_starts(x.cols(), is_stochastic, starts);
   if (start) begins.push_back(*start);
-  ceres::GradientProblem problem(new MinusLogPosterior(x, y, is_stochastic));
+  ceres::GradientProblem problem(new MinusLogPosterior(x, y, is_stochastic, means));
   ceres::GradientProblemSolver::Options options;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 40;
@@ -280,7 +308,7 @@ struct GaussianProcess::State {
 
 GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y,
                                  bool is_stochastic, const std::optional<Hyperparameters>& start,
-                                 int starts) {
+                                 int starts, const MeansOfRuns& means) {
   auto state = std::make_shared<State>();
   state->x = as_rows(x);
   Eigen::VectorXd values =
@@ -291,12 +319,15 @@ GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<
   state->scale = scale > 0 ? scale : 1;
   values /= state->scale;
 
-  const SearchResult found = search_hyperparameters(state->x, values, is_stochastic, start, starts);
+  MeansOfRuns scaled = means;
+  scaled.squares /= state->scale * state->scale;
+  const SearchResult found =
+      search_hyperparameters(state->x, values, is_stochastic, start, starts, scaled);
   state->hyper = found.hyper;
-  state->covariance = Covariance(found.hyper);
+  state->covariance = Covariance(found.hyper, counts_of(means));
   // The density of y, not of the scaled y.
   state->log_posterior =
-      found.log_posterior - static_cast<double>(y.size()) * std::log(state->scale);
+      found.log_posterior - (static_cast<double>(y.size()) + means.df) * std::log(state->scale);
   state->scaled = state->covariance.scaled(state->x);
   state->root.compute(state->covariance.of_runs(state->x));
   state->alpha = state->root.solve(values);

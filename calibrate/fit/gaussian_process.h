@@ -24,6 +24,15 @@ struct Expectation {
   Point variance_gradient;
 };
 
+/// What values tell of the noise that are means of several runs at their place, each: such a mean
+/// has the noise's variance by its count, and the runs' squares about it have the distribution of
+/// the noise's variance times a chi-square.
+struct MeansOfRuns {
+  std::vector<double> counts;  ///< of each value; empty: all are single runs
+  double squares = 0;          ///< of runs about the means of their places, where these are told
+  double df = 0;               ///< their degrees of freedom
+};
+
 /// Error of a run's prediction by all other runs, and the sd that was expected of it.
 struct LeaveOneOut {
   double error = 0;
@@ -40,12 +49,13 @@ class GaussianProcess {
   /// Fits the hyperparameters to `y` at `x` (at least two, not all alike). `is_stochastic`: values
   /// at one point differ. `start` is where the search begins besides its own starts.
   GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y, bool is_stochastic,
-                  const std::optional<Hyperparameters>& start, int starts);
+                  const std::optional<Hyperparameters>& start, int starts,
+                  const MeansOfRuns& means = {});
 
   Expectation at(const Point& x, bool with_gradients) const;
   /// Covariances of what is expected at some points, row by row.
   std::vector<double> covariance(const std::vector<Point>& points) const;
-  double noise_sd() const;
+  double noise_sd() const;  ///< of single runs
   double log_posterior() const;
   const Hyperparameters& hyperparameters() const;
   std::vector<LeaveOneOut> leave_one_out() const;

@@ -253,7 +253,11 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
                      const std::vector<std::vector<double>>& asked) {
   require_sound(problem);
   const std::vector<Run> sorted = in_order(problem, runs);
-  const Solution solution = solve(problem, sorted);
+  return fit_of(problem, sorted, solve(problem, sorted), asked);
+}
+
+JointFit fit_of(const Problem& problem, const std::vector<Run>& runs, const Solution& solution,
+                const std::vector<std::vector<double>>& asked) {
   JointFit fit;
   fit.chi2 = solution.stated_chi2;
   fit.freedom = solution.misfit.freedom(solution.best.point);
@@ -263,17 +267,17 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) {
     fit.parameters.push_back(parameter_of(problem, solution, j));
   }
-  const std::vector<Narrowing> narrowing = narrowing_of(solution, work_of(problem, sorted));
+  const std::vector<Narrowing> narrowing = narrowing_of(solution, work_of(problem, runs));
   std::vector<double> exact;
   for (std::size_t j = 0; j < narrowing.size(); ++j) {
     fit.parameters[j].narrowing = narrowing[j];
     exact.push_back(narrowing[j].exact);
   }
-  advise(problem, Advisor(problem, sorted, solution, std::move(exact)), fit);
+  advise(problem, Advisor(problem, runs, solution, std::move(exact)), fit);
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     fit.observables.push_back(observable_of(problem, solution, i));
     fit.surrogates.push_back(
-        quality_of(problem, sorted, solution.misfit.surrogates()[i], problem.observables[i]));
+        quality_of(problem, runs, solution.misfit.surrogates()[i], problem.observables[i]));
   }
   fit.correlation = correlation_of(solution.sets.points);
   fit.reading_correlation = solution.misfit.reading_correlation();
@@ -288,7 +292,7 @@ JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
   fit.drawn = drawn_from(problem, solution.sets.points);
   fit.curves = response_curves(problem, solution);
   fit.surfaces = response_surfaces(problem, solution);
-  fit.rounds = reconstruct_rounds(problem, sorted).complete;
+  fit.rounds = reconstruct_rounds(problem, runs).complete;
   fit.warnings = warnings_for(problem, solution, fit);
   return fit;
 }

@@ -29,7 +29,8 @@ struct ProfilePoint {
 
 /// How wide the 95 % interval of a parameter would be, as a part of its present width.
 struct Narrowing {
-  double hour = 1;      ///< after an hour of one core more
+  std::optional<double>
+      hour;             ///< after an hour of one core more; none: not known how long runs take
   double exact = 1;     ///< were the simulation's means known exactly
   double readings = 1;  ///< with four times the bench readings
 };
@@ -155,5 +156,11 @@ struct JointFit {
 /// experiment have the reading.
 JointFit fit_jointly(const Problem& problem, const std::vector<Run>& runs,
                      const std::vector<std::vector<double>>& asked = {});
+
+struct Solution;
+
+/// The same of a problem that was solved (solution.h) with these runs, which are in_order.
+JointFit fit_of(const Problem& problem, const std::vector<Run>& runs, const Solution& solution,
+                const std::vector<std::vector<double>>& asked);
 
 }  // namespace repose::calibrate

@@ -211,8 +211,8 @@ double robust_slope(double residual) {
 }
 
 double few_readings_factor(const Observable& observable) {
-  if (!observable.sd) return 1;
-  return base::student_t_quantile(.975, observable.n - 1) / base::kNormal95;
+  const double df = degrees_of_scatter(observable);
+  return std::isfinite(df) ? base::student_t_quantile(.975, df) / base::kNormal95 : 1;
 }
 
 Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,

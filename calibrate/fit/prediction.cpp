@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "base/distributions.h"
 #include "calibrate/fit/check_sample.h"
@@ -125,31 +124,6 @@ double measured_uncertainty_of(const Problem& problem, const Observable& observa
   return with_systematic(observable, std::max(known, reading_sd / std::sqrt(observable.n)));
 }
 
-/// `of_sets`: of the reading that the sets lead to. That the model is wrong makes no difference
-/// less real, but a difference less of a surprise.
-void judge(const Problem& problem, const Observable& observable, const UncertainMean& of_sets,
-           Prediction& prediction) {
-  const double scatter2 = std::max(
-      0., std::pow(prediction.measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2));
-  const double df = observable.sd ? observable.n - 1 : std::numeric_limits<double>::infinity();
-  const UncertainMean bench =
-      with_known({prediction.measured, std::sqrt(scatter2), df}, observable.systematic_sd);
-  const UncertainMean difference = difference_of(of_sets, bench);
-  const UncertainMean by_chance = difference_of(with_known(of_sets, prediction.model_sd), bench);
-  prediction.difference_sigma = by_chance.value / by_chance.uncertainty;
-  prediction.chance = chance_of(by_chance);
-  const Interval within = equivalence_interval(difference);
-  if (within.low >= -prediction.tolerance && within.high <= prediction.tolerance) {
-    prediction.verdict = AgreementVerdict::agrees;
-  } else if (prediction.chance < kLevel / static_cast<double>(problem.held_out.size())) {
-    prediction.verdict = AgreementVerdict::disagrees;
-  }
-  if (prediction.verdict != AgreementVerdict::cannot_tell) return;
-  prediction.readings_to_decide =
-      readings_to_decide(difference, std::sqrt(scatter2), observable.n, prediction.tolerance,
-                         kLevel / static_cast<double>(problem.held_out.size()));
-}
-
 /// Of the runs all over the bounds and of the drawn sets, as far as a bench can read it.
 std::optional<Interval> possible_of(const Problem& problem, const JointFit& fit,
                                     const Observable& observable, const std::vector<Run>& runs,
@@ -203,18 +177,43 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
   prediction.run_sd = std::sqrt(sets.run_variance());
   const UncertainMean of_sets{prediction.predicted, std::sqrt(by_coefficients + between / count),
                               count - 1};
-  const UncertainMean real = with_known(of_sets, prediction.model_sd);
-  prediction.uncertainty = real.uncertainty;
   prediction.measured_uncertainty =
       measured_uncertainty_of(problem, observable, prediction.run_sd, runs);
-  const double half = base::student_t_quantile(.975, real.df) * real.uncertainty;
-  prediction.interval = {std::max(prediction.predicted - half, observable.least),
-                         std::min(prediction.predicted + half, observable.most)};
   judge(problem, observable, of_sets, prediction);
   return prediction;
 }
 
 }  // namespace
+
+void judge(const Problem& problem, const Observable& observable, const UncertainMean& of_sets,
+           Prediction& prediction) {
+  const UncertainMean real = with_known(of_sets, prediction.model_sd);
+  prediction.uncertainty = real.uncertainty;
+  const double half =
+      base::student_t_quantile(.975, std::min(real.df, base::kManyDf)) * real.uncertainty;
+  prediction.interval = {std::max(prediction.predicted - half, observable.least),
+                         std::min(prediction.predicted + half, observable.most)};
+  const double scatter2 = std::max(
+      0., std::pow(prediction.measured_uncertainty, 2) - std::pow(observable.systematic_sd, 2));
+  const UncertainMean bench =
+      with_known({prediction.measured, std::sqrt(scatter2), degrees_of_scatter(observable)},
+                 observable.systematic_sd);
+  // That the model is wrong makes no difference less real, but a difference less of a surprise.
+  const UncertainMean difference = difference_of(of_sets, bench);
+  const UncertainMean by_chance = difference_of(real, bench);
+  prediction.difference_sigma = by_chance.value / by_chance.uncertainty;
+  prediction.chance = chance_of(by_chance);
+  const Interval within = equivalence_interval(difference);
+  if (within.low >= -prediction.tolerance && within.high <= prediction.tolerance) {
+    prediction.verdict = AgreementVerdict::agrees;
+  } else if (prediction.chance < kLevel / static_cast<double>(problem.held_out.size())) {
+    prediction.verdict = AgreementVerdict::disagrees;
+  }
+  if (prediction.verdict != AgreementVerdict::cannot_tell) return;
+  prediction.readings_to_decide =
+      readings_to_decide(difference, std::sqrt(scatter2), observable.n, prediction.tolerance,
+                         kLevel / static_cast<double>(problem.held_out.size()));
+}
 
 std::vector<Job> prediction_jobs(const Problem& problem, const JointFit& fit) {
   std::vector<Job> jobs;

@@ -51,6 +51,11 @@ std::vector<Job> prediction_jobs(const Problem& problem, const JointFit& fit);
 std::vector<Experiment> held_out_experiments(const Problem& problem);
 int prediction_runs(const Experiment& experiment);
 
+/// Interval and verdict of a prediction whose `predicted`, `model_sd`, `measured_uncertainty` and
+/// `tolerance` are known. `of_sets`: the reading that the plausible sets of coefficients lead to.
+void judge(const Problem& problem, const Observable& observable, const UncertainMean& of_sets,
+           Prediction& prediction);
+
 /// What these runs predict for each of Problem::held_out, and whether it is what was measured.
 /// Formulae and reasons: THEORY.md, "Predictions". Proved by Prediction.* in tests/calibrate.
 std::vector<Prediction> predictions_of(const Problem& problem, const JointFit& fit,

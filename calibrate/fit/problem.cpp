@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/core.h>
@@ -110,7 +111,7 @@ void check_scatter(const Observable& observable, std::vector<base::Fault>& error
                                 "every simulation wrong",
                         .fix = "give the instrument's resolution as sd"});
     }
-    if (observable.n == 1) {
+    if (observable.n == 1 && !observable.is_sd_known) {
       errors.push_back({.where = name,
                         .value = "one reading has no sd",
                         .fix = "repeat it, or assume a scatter (assumed_sd_share)"});
@@ -281,6 +282,11 @@ double standard_uncertainty(const Observable& observable) {
                         ? *observable.sd
                         : observable.assumed_sd_fraction.value_or(0) * std::abs(observable.mean);
   return sd / std::sqrt(static_cast<double>(observable.n));
+}
+
+double degrees_of_scatter(const Observable& observable) {
+  if (!observable.sd || observable.is_sd_known) return std::numeric_limits<double>::infinity();
+  return observable.n - 1;
 }
 
 double with_systematic(const Observable& observable, double by_scatter) {

@@ -88,8 +88,9 @@ struct Observable {
   std::string reading = "value";  ///< or another reading of that experiment: "base_radius_mm"
   std::string unit;               ///< "mm", "deg"
   double mean = 0;
-  std::optional<double> sd;  ///< of single readings, measured; needs n of at least 2
-  int n = 1;                 ///< readings
+  std::optional<double>
+      sd;     ///< of single readings, measured; needs n of at least 2, or to be known
+  int n = 1;  ///< readings
   /// In place of `sd` where none is known: the sd of single readings as a fraction of |mean|.
   /// Assumed by the caller, and said in the result.
   std::optional<double> assumed_sd_fraction;
@@ -109,6 +110,8 @@ struct Observable {
   /// incline; what the simulation reaches is told within.
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+  /// `sd` is not of these n readings, but of others like them: n may be 1.
+  bool is_sd_known = false;
 };
 
 /// How much may be spent, and how the fit is made.
@@ -162,14 +165,18 @@ struct Run {
   /// By name; the experiment's own number is called "value". Empty when it failed.
   std::map<std::string, double> readings;
   std::string failure;  ///< why there is no reading ("the grains stay in the tube"); else empty
+  int repeats = 1;      ///< runs with other seeds that the readings are means of
+  /// The sd of single ones among these, by the reading's name, where it is told.
+  std::map<std::string, double> repeat_sd = {};
 };
 
 /// An experiment that the study does not have. Where it was simulated all the same, the advice says
 /// what readings of it would be worth.
 struct Offer {
   Experiment experiment;
-  std::string study_lines;  ///< its section of the study file
-  std::vector<Run> runs;    ///< all over the bounds, each once, in a fixed order; or none
+  std::string study_lines;   ///< its section of the study file
+  std::vector<Run> runs;     ///< all over the bounds, each once, in a fixed order; or none
+  std::string heading = {};  ///< what to add; empty: "[experiment.NAME]"
 };
 
 /// A number of the study that no fit seeks, and how well it is known.
@@ -209,6 +216,10 @@ bool leaves_one_value(const Parameter& parameter, double value, double half_widt
 /// Standard uncertainty of an observable's mean by the scatter of its readings, in its unit: sd /
 /// sqrt(n).
 double standard_uncertainty(const Observable& observable);
+
+/// By how many degrees of freedom that is known: infinite where the scatter is assumed, or known
+/// beforehand.
+double degrees_of_scatter(const Observable& observable);
 
 /// That of the mean, by the scatter of its readings and by what they have in common.
 double with_systematic(const Observable& observable, double by_scatter);

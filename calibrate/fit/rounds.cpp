@@ -160,7 +160,8 @@ struct Unknown {
 
 std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
                                      const std::vector<double>& weights,
-                                     const std::vector<Point>& candidates, std::size_t count) {
+                                     const std::vector<Point>& candidates, std::size_t count,
+                                     double enough) {
   const auto size = static_cast<Eigen::Index>(candidates.size());
   std::vector<Unknown> unknowns;
   for (std::size_t i = 0; i < surrogates.size(); ++i) {
@@ -170,7 +171,11 @@ std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
         {Eigen::Map<const Eigen::MatrixXd>(flat.data(), size, size), noise * noise, weights[i]});
   }
   std::vector<std::size_t> chosen;
+  const auto is_known = [&](const Unknown& unknown) {
+    return unknown.weight * unknown.covariance.diagonal().mean() <= enough;
+  };
   while (chosen.size() < count) {
+    if (enough > 0 && std::ranges::all_of(unknowns, is_known)) break;
     Eigen::VectorXd gains = Eigen::VectorXd::Zero(size);
     for (const Unknown& unknown : unknowns) gains += unknown.gains();
     Eigen::Index best = 0;
@@ -181,11 +186,26 @@ std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
   return chosen;
 }
 
+double unknown_fraction(const Misfit& misfit, const PosteriorSamples& sets,
+                        std::size_t observable) {
+  double sum = 0;
+  for (const Point& point : sets.points) {
+    sum += misfit.surrogate_variance_fraction(observable, point);
+  }
+  return sum / static_cast<double>(sets.points.size());
+}
+
+std::vector<Point> candidate_places(const PosteriorSamples& sets) {
+  constexpr std::size_t kCandidates = 150;
+  std::vector<Point> chosen;
+  for (std::size_t i = 0; i < kCandidates; ++i) {
+    chosen.push_back(sets.wide[i * sets.wide.size() / kCandidates]);
+  }
+  return chosen;
+}
+
 namespace {
 
-constexpr std::size_t kCandidates = 150;
-constexpr int kSpreadEvery = 8;         // one of so many jobs looks elsewhere
-constexpr double kKnownWell = .06;      // surrogate variance over measured: adds 3 % to sigma
 constexpr double kSettledMove = .5;     // of the scatter of the plausible sets
 constexpr double kSettledScatter = .2;  // relative change
 
@@ -270,40 +290,24 @@ class Study {
     return found;
   }
 
-  /// The candidates' mean of the surrogate's variance in measured ones.
-  double surrogate_variance_fraction(std::size_t observable) const {
-    double sum = 0;
-    for (const Point& point : sets_.points)
-      sum += misfit_->surrogate_variance_fraction(observable, point);
-    return sum / static_cast<double>(sets_.points.size());
-  }
-
   /// Of each experiment: how much its surrogates add to the uncertainty; 0 where that is little.
   std::vector<double> needs() const {
     std::vector<double> needs;
     for (const Experiment& experiment : experiments_) {
       double most = 0;
       for (const std::size_t i : observables_of(experiment))
-        most = std::max(most, surrogate_variance_fraction(i));
+        most = std::max(most, unknown_fraction(*misfit_, sets_, i));
       // A surrogate that knows nothing yet must not take everything from the others.
       needs.push_back(most > kKnownWell ? std::min(std::sqrt(most), 5.) : 0);
     }
     return needs;
   }
 
-  std::vector<Point> candidates() const {
-    std::vector<Point> chosen;
-    for (std::size_t i = 0; i < kCandidates; ++i) {
-      chosen.push_back(sets_.wide[i * sets_.wide.size() / kCandidates]);
-    }
-    return chosen;
-  }
-
   void add_jobs(std::size_t e, int count, std::vector<Job>& jobs) const {
     if (count < 1) return;
     const Experiment& experiment = experiments_[e];
     const auto elsewhere = static_cast<std::size_t>(count / kSpreadEvery);
-    const std::vector<Point> sets = candidates();
+    const std::vector<Point> sets = candidate_places(sets_);
     std::vector<Surrogate> surrogates;
     std::vector<double> weights;
     for (const std::size_t i : observables_of(experiment)) {

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/misfit.h"
+#include "calibrate/fit/plausible.h"
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/problem.h"
 #include "calibrate/fit/surrogate.h"
@@ -32,9 +34,22 @@ std::vector<Job> following_jobs(const Problem& problem, const std::vector<Run>& 
 /// candidates most, each surrogate's in units of `weights`: Cohn (1996), Neural Networks 9, 1071;
 /// for Gaussian processes Seo, Wallat, Graepel, Obermayer (2000). A run without chance is never
 /// repeated. Proved by BestPlaces.* in tests/calibrate.
+/// @param enough  fewer are chosen where after these no surrogate's mean variance is above
 std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
                                      const std::vector<double>& weights,
-                                     const std::vector<Point>& candidates, std::size_t count);
+                                     const std::vector<Point>& candidates, std::size_t count,
+                                     double enough = 0);
+
+/// A surrogate's mean variance at the plausible sets, in that of the measured mean, from which on
+/// runs are worth their while: it adds 3 % to sigma.
+inline constexpr double kKnownWell = .06;
+inline constexpr int kSpreadEvery = 8;  ///< one of so many runs looks elsewhere
+
+/// That mean variance.
+double unknown_fraction(const Misfit& misfit, const PosteriorSamples& sets, std::size_t observable);
+
+/// Places that a next run may be at, where sets of coefficients are plausible.
+std::vector<Point> candidate_places(const PosteriorSamples& sets);
 
 /// The rounds of a study, as far as its runs go.
 struct Rounds {

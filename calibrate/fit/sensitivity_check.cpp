@@ -99,7 +99,8 @@ struct Asked {
 /// Of the measured mean; a scatter that is only assumed counts as known.
 double half_width_95(const Asked& asked) {
   const Observable& observable = asked.observable;
-  return base::student_t_quantile(kInterval, observable.sd ? observable.n - 1 : base::kManyDf) *
+  return base::student_t_quantile(kInterval,
+                                  std::min(degrees_of_scatter(observable), base::kManyDf)) *
          (asked.fit != nullptr ? asked.fit->observables[asked.number].measured_uncertainty
                                : with_systematic(observable, standard_uncertainty(observable)));
 }

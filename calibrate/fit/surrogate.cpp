@@ -22,7 +22,7 @@ namespace {
 
 auto order_of(const Run& run) {
   return std::tie(run.job.experiment, run.job.values, run.job.seed, run.job.inputs, run.failure,
-                  run.readings);
+                  run.readings, run.repeats, run.repeat_sd);
 }
 
 void require_of(const Problem& problem, const Run& run) {
@@ -90,6 +90,23 @@ std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) 
   return sorted;
 }
 
+namespace {
+
+/// Whether repeats scatter that a run is the mean of. None: it is no such mean, or does not tell.
+std::optional<bool> do_repeats_differ(const Experiment& experiment, const Run& run) {
+  if (run.repeats < 2) return std::nullopt;
+  std::optional<bool> differ;
+  for (const std::string& name : experiment.measurable) {
+    const auto sd = run.repeat_sd.find(name);
+    const auto reading = reading_of(run, name);
+    if (sd == run.repeat_sd.end() || !reading) continue;
+    differ = differ.value_or(false) || !is_alike(*reading, *reading + sd->second);
+  }
+  return differ;
+}
+
+}  // namespace
+
 bool has_chance(const Experiment& experiment, const std::vector<Run>& runs) {
   // A reading that all runs share, as of grains that never leave, would say nothing of chance.
   constexpr std::size_t kFewest = 2;
@@ -98,6 +115,10 @@ bool has_chance(const Experiment& experiment, const std::vector<Run>& runs) {
   const Run* first = nullptr;
   for (const Run& run : runs) {
     if (run.job.experiment != experiment.name) continue;
+    if (const auto differ = do_repeats_differ(experiment, run)) {
+      if (*differ) return true;
+      if (const auto value = reading_of(run, "value")) repeated.insert(*value);
+    }
     if (first == nullptr || first->job.values != run.job.values) {
       first = &run;
       continue;
@@ -142,6 +163,14 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
     training_set.places.push_back(std::move(place));
     training_set.readings.push_back(*value);
     training_set.runs.push_back(k);
+    const auto sd = run.repeat_sd.find(reading);
+    training_set.repeats.push_back(run.repeats);
+    training_set.repeat_sds.push_back(
+        sd == run.repeat_sd.end() ? std::numeric_limits<double>::quiet_NaN() : sd->second);
+  }
+  if (std::ranges::all_of(training_set.repeats, [](int repeats) { return repeats == 1; })) {
+    training_set.repeats.clear();
+    training_set.repeat_sds.clear();
   }
   return training_set;
 }
@@ -218,14 +247,28 @@ Surrogate::Surrogate(const TrainingSet& training_set, const std::optional<Surrog
   few_runs_factor_ = factor_of_few_runs();
 }
 
+double Surrogate::repeats_of(std::size_t reading) const {
+  return training_set_.repeats.empty() ? 1 : training_set_.repeats[reading];
+}
+
+double Surrogate::runs_told(std::size_t reading) const {
+  const bool is_told =
+      !training_set_.repeat_sds.empty() && std::isfinite(training_set_.repeat_sds[reading]);
+  return is_told ? repeats_of(reading) : 1;
+}
+
 /// The runs' own scatter has n - tr H degrees of freedom, H being what takes their readings to what
-/// is expected at their places: 1 - H = noise^2 K^-1.
+/// is expected at their places: 1 - H = N K^-1, N having noise^2 by the repeats on its diagonal.
+/// The scatter of repeats about their mean has more.
 double Surrogate::factor_of_few_runs() const {
   if (!training_set_.is_stochastic) return 1;
   constexpr double kFewest = 3;  // fewer would say more about the prior of the noise than of it
   const double noise = process_->noise_sd();
   double df = 0;
-  for (const LeaveOneOut& one : process_->leave_one_out()) df += noise * noise / (one.sd * one.sd);
+  const std::vector<LeaveOneOut> all = process_->leave_one_out();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    df += noise * noise / (repeats_of(i) * all[i].sd * all[i].sd) + (runs_told(i) - 1);
+  }
   return base::student_t_quantile(.975, std::max(df, kFewest)) / base::kNormal95;
 }
 
@@ -233,11 +276,20 @@ GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparamet
                                    int starts, std::size_t every) const {
   std::vector<Point> places;
   std::vector<double> values;
+  MeansOfRuns means;
   for (std::size_t i = 0; i < training_set_.places.size(); i += every) {
+    const double reading = training_set_.readings[i];
     places.push_back(training_set_.places[i]);
-    values.push_back(AsinhWarp{warp, 0}.warped(training_set_.readings[i]));
+    values.push_back(AsinhWarp{warp, 0}.warped(reading));
+    if (training_set_.repeats.empty()) continue;
+    means.counts.push_back(repeats_of(i));
+    if (!training_set_.is_stochastic || runs_told(i) < 2) continue;
+    // The warp is straight over what repeats scatter.
+    const double slope = warp > 0 ? 1 / std::hypot(reading, warp) : 1;
+    means.df += runs_told(i) - 1;
+    means.squares += (runs_told(i) - 1) * std::pow(slope * training_set_.repeat_sds[i], 2);
   }
-  return {places, values, training_set_.is_stochastic, start, starts};
+  return {places, values, training_set_.is_stochastic, start, starts, means};
 }
 
 double Surrogate::best_warp(const std::optional<Hyperparameters>& start) const {
@@ -251,7 +303,7 @@ double Surrogate::best_warp(const std::optional<Hyperparameters>& start) const {
     // Gaussian processes.
     double density = learned(warp, start, 1, every).log_posterior();
     for (std::size_t i = 0; warp > 0 && i < training_set_.readings.size(); i += every) {
-      density -= std::log(std::hypot(training_set_.readings[i], warp));
+      density -= runs_told(i) * std::log(std::hypot(training_set_.readings[i], warp));
     }
     if (density > most) {
       most = density;

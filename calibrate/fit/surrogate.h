@@ -39,6 +39,10 @@ struct TrainingSet {
   std::vector<std::size_t> runs = {};  ///< places of these in all runs
   int readings_per_run = 1;            ///< the experiment's
   double sd_within = 0;                ///< of its Experiment::scatter_within
+  /// Run::repeats of each reading, and the sd of these repeats; NaN: not told. Empty: none is a
+  /// mean.
+  std::vector<int> repeats = {};
+  std::vector<double> repeat_sds = {};
 };
 
 /// One reading as a function of all parameters, with its uncertainty.
@@ -84,6 +88,9 @@ class Surrogate {
   Point seen(const Point& point) const;
   GaussianProcess learned(double warp, const std::optional<Hyperparameters>& start, int starts,
                           std::size_t every) const;
+  /// Runs whose sd about this reading is told; 1 where none is.
+  double runs_told(std::size_t reading) const;
+  double repeats_of(std::size_t reading) const;
   double factor_of_few_runs() const;
   double best_warp(const std::optional<Hyperparameters>& start) const;
 

@@ -95,9 +95,9 @@ class Differences {
 /// Only the scatter of readings is known by how many there are.
 UncertainMean bench_mean(const Observable& observable, double uncertainty) {
   const double scatter2 = std::pow(uncertainty, 2) - std::pow(observable.systematic_sd, 2);
-  return with_known({observable.mean, std::sqrt(std::max(scatter2, 0.)),
-                     observable.sd ? observable.n - 1 : kInfinite},
-                    observable.systematic_sd);
+  return with_known(
+      {observable.mean, std::sqrt(std::max(scatter2, 0.)), degrees_of_scatter(observable)},
+      observable.systematic_sd);
 }
 
 Eigen::MatrixXd matrix_of(const std::vector<std::vector<double>>& rows, std::size_t size) {

@@ -38,8 +38,8 @@ Table brief_agreement_table(const JointResult& joint) {
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
     table.data.add({axis_of_observable(observable.name, observable.unit), cell(observable.measured),
-                    cell(bench_half_width(observable)), cell(observable.verification.simulated),
-                    name_of(observable.verification.verdict)});
+                    cell(bench_half_width(observable)), cell(observable.verification->simulated),
+                    name_of(observable.verification->verdict)});
   }
   return table;
 }
@@ -80,12 +80,35 @@ Table agreement_table(const JointResult& joint) {
                                    {.name = "difference / σ", .unit = {}, .decimals = 1}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
-    const Agreement& checked = observable.verification;
+    const Agreement& checked = *observable.verification;
     table.data.add({axis_of_observable(observable.name, observable.unit), cell(observable.measured),
                     cell(bench_half_width(observable)), cell(observable.simulated),
                     cell(half_width_95(observable.simulated_uncertainty)), cell(checked.simulated),
                     cell(half_width_95(checked.simulated_uncertainty, checked.runs - 1)),
                     cell(checked.difference_sigma)});
+  }
+  return table;
+}
+
+/// Of readings that were not simulated again: what surfaces through the runs give.
+Table fitted_table(const JointResult& joint) {
+  Table table{
+      .name = "fitted",
+      .title =
+          "Measured means, and what surfaces through the runs give at the fitted parameters; "
+          "± is the half-width of the 95 % interval",
+      .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                           {.name = "measured", .unit = {}},
+                           {.name = "±", .unit = {}},
+                           {.name = "by the surface", .unit = {}},
+                           {.name = "±", .unit = {}},
+                           {.name = "difference / σ", .unit = {}, .decimals = 1}},
+               .rows = {}}};
+  for (const ResultObservable& observable : joint.observables) {
+    table.data.add({axis_of_observable(observable.name, observable.unit), cell(observable.measured),
+                    cell(bench_half_width(observable)), cell(observable.simulated),
+                    cell(half_width_95(observable.simulated_uncertainty)),
+                    cell(observable.difference_sigma)});
   }
   return table;
 }
@@ -124,7 +147,7 @@ Table verdicts_table(const JointResult& joint) {
                                    {.name = "verdict", .unit = {}}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
-    const Agreement& checked = observable.verification;
+    const Agreement& checked = *observable.verification;
     std::optional<double> needed;
     std::optional<double> readings;
     if (checked.runs_to_decide) needed = *checked.runs_to_decide;
@@ -152,7 +175,7 @@ Table surrogate_table(const JointResult& joint) {
                                    {.name = "prediction", .unit = {}}},
                        .rows = {}}};
   for (const ResultObservable& observable : joint.observables) {
-    const SurrogateCheck& check = observable.surrogate;
+    const SurrogateCheck& check = *observable.surrogate;
     table.data.add({axis_of_observable(observable.name, observable.unit), cell(check.predicted),
                     cell(half_width_95(check.uncertainty)), cell(check.simulated),
                     cell(100 * check.chance),
@@ -230,11 +253,13 @@ void add_predictions(const JointResult& joint, Chapter& chapter) {
     chapter.blocks.push_back(Paragraph{prediction_text(prediction) + '.'});
   }
   chapter.blocks.push_back(Paragraph{fmt::format(
-      "These readings had no part in the fit. They were simulated at {} sets of coefficients drawn "
-      "from those that the fit leaves plausible; the interval holds what these differ by, and "
-      "chance. Cannot tell: the coefficients are not known well enough to predict this reading "
+      "These readings had no part in the fit. They {} {} sets of coefficients drawn "
+      "from those that the fit leaves plausible; the interval holds what these differ by, and {}. "
+      "Cannot tell: the coefficients are not known well enough to predict this reading "
       "within its margin.",
-      kDrawnSets)});
+      joint.verdict ? "were simulated at" : "are what a surface through the table's runs gives at",
+      joint.verdict ? static_cast<int>(kDrawnSets) : joint.held_out.front().sets,
+      joint.verdict ? "chance" : "what is not known of the surface")});
 }
 
 /// How a check of an assumed input is told.
@@ -403,15 +428,22 @@ void add_candidates(const JointResult& joint, Chapter& chapter) {
 Chapter agreement_chapter(const JointResult& joint) {
   Chapter chapter{.id = "agreement", .title = "Bench and simulation", .blocks = {}};
   add_predictions(joint, chapter);
-  chapter.blocks.push_back(Paragraph{titled(joint.agreement.text) + '.'});
-  chapter.blocks.push_back(brief_agreement_table(joint));
-  chapter.blocks.push_back(Paragraph{rounds_text(joint)});
+  if (joint.verdict) {
+    chapter.blocks.push_back(Paragraph{titled(joint.agreement.text) + '.'});
+    chapter.blocks.push_back(brief_agreement_table(joint));
+    chapter.blocks.push_back(Paragraph{rounds_text(joint)});
+  } else {
+    chapter.blocks.push_back(
+        Paragraph{"Not checked in simulations: " + joint.agreement.text + '.'});
+    chapter.blocks.push_back(fitted_table(joint));
+  }
   if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
     chapter.blocks.push_back(Paragraph{titled(freedom) + '.'});
   }
   if (const std::string model = model_error_text(joint); !model.empty()) {
     chapter.blocks.push_back(Paragraph{titled(model) + '.'});
   }
+  if (!joint.verdict) return chapter;
   chapter.blocks.push_back(Paragraph{
       "Agrees: the difference is shown to be within the margin. Disagrees: it is more than "
       "chance makes. Cannot tell: neither is shown. All numbers behind these verdicts are in the "
@@ -425,6 +457,13 @@ Chapter agreement_chapter(const JointResult& joint) {
 
 Chapter checks_chapter(const JointResult& joint) {
   Chapter chapter{.id = "checks", .title = "Range, checks and scatter", .blocks = {}};
+  if (!joint.verdict) {
+    chapter.title = "Range and scatter";
+    if (!joint.held_out.empty()) chapter.blocks.push_back(predictions_table(joint));
+    chapter.blocks.push_back(reach_table(joint));
+    chapter.blocks.push_back(scatter_table(joint));
+    return chapter;
+  }
   chapter.blocks.push_back(agreement_table(joint));
   chapter.blocks.push_back(Paragraph{"σ is the standard uncertainty of the difference."});
   chapter.blocks.push_back(verdicts_table(joint));

@@ -120,16 +120,20 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
   chapter.blocks.push_back(Paragraph{
-      "These coefficients are valid only with their clump, contact model, damping, stiffness and "
-      "time step, which are listed under “Provenance”. In another program the same number may have "
-      "a different meaning."});
+      joint.verdict
+          ? "These coefficients are valid only with their clump, contact model, damping, stiffness "
+            "and time step, which are listed under “Provenance”. In another program the same "
+            "number may have a different meaning."
+          : "These parameters are valid only with the program, particles, contact model, stiffness "
+            "and time step that the runs of the table were made with."});
   const std::vector<std::string> advice = advice_of(joint);
   if (!advice.empty()) {
     chapter.blocks.push_back(Heading{"How to determine the others"});
     for (const std::string& text : advice) chapter.blocks.push_back(Remark{text});
     if (!joint.additions.empty()) {
       chapter.blocks.push_back(
-          CodeText{"For the study file (repose plan tells what each would give)",
+          CodeText{joint.verdict ? "For the study file (repose plan tells what each would give)"
+                                 : "For the study file, with a table of what the bench read",
                    lines_of(joint.additions)});
     }
   }
@@ -219,16 +223,25 @@ Table narrowing_table(const JointResult& joint) {
               .title = "Width of the 95 % interval: current and predicted",
               .data = {.columns = {{.name = "coefficient", .unit = {}},
                                    {.name = "now", .unit = {}, .decimals = 3},
-                                   {.name = "one more core hour", .unit = {}, .decimals = 3},
                                    {.name = "exact simulation", .unit = {}, .decimals = 3},
                                    {.name = "four times the readings", .unit = {}, .decimals = 3}},
                        .rows = {}}};
+  // Of another program's runs nobody knows how many an hour makes.
+  const bool has_hours = std::ranges::any_of(joint.parameters, [](const ResultParameter& one) {
+    return one.narrowing && one.narrowing->hour;
+  });
+  if (has_hours) {
+    table.data.columns.insert(table.data.columns.begin() + 2,
+                              {.name = "one more core hour", .unit = {}, .decimals = 3});
+  }
   for (const ResultParameter& parameter : joint.parameters) {
     if (!parameter.narrowing) continue;
     const double width = parameter.interval.high - parameter.interval.low;
-    table.data.add({label_of(parameter.name), cell(width), cell(width * parameter.narrowing->hour),
-                    cell(width * parameter.narrowing->exact),
-                    cell(width * parameter.narrowing->readings)});
+    std::vector<Cell> row = {label_of(parameter.name), cell(width)};
+    if (has_hours) row.push_back(cell(width * parameter.narrowing->hour.value_or(1)));
+    row.push_back(cell(width * parameter.narrowing->exact));
+    row.push_back(cell(width * parameter.narrowing->readings));
+    table.data.add(std::move(row));
   }
   return table;
 }

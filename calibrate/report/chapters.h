@@ -15,6 +15,8 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures);
 void add_assumed_scatter(const JointResult& joint, std::vector<Block>& blocks);
 /// What was done on the bench and simulated.
 Chapter protocol_chapter(const ReportedStudy& study);
+/// What was measured, and what the rows of a table of runs are.
+Chapter table_chapter(const StudyResult& result);
 /// What bench and simulation gave.
 Chapter agreement_chapter(const JointResult& joint);
 /// What inputs held fixed move, beside the intervals.

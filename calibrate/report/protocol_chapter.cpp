@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -245,6 +246,47 @@ Chapter protocol_chapter(const ReportedStudy& study) {
     chapter.blocks.push_back(Paragraph{shortened(
         fmt::format("Marked as assumed in the study: {}.", fmt::join(assumed, ", ")), 2000)});
   }
+  return chapter;
+}
+
+namespace {
+
+Table measured_table(const JointResult& joint) {
+  Table table{.name = "measured",
+              .title = "What was measured",
+              .data = {.columns = {{.name = "measured quantity", .unit = {}},
+                                   {.name = "mean", .unit = {}},
+                                   {.name = "sd of single readings", .unit = {}},
+                                   {.name = "standard uncertainty of the mean", .unit = {}},
+                                   {.name = "use", .unit = {}}},
+                       .rows = {}}};
+  for (const ResultObservable& one : joint.observables) {
+    table.data.add({axis_of_observable(one.name, one.unit), cell(one.measured),
+                    cell(one.measured_sd), cell(one.measured_uncertainty), std::string("fitted")});
+  }
+  for (const Prediction& one : joint.held_out) {
+    table.data.add({axis_of_observable(one.name, one.unit), cell(one.measured), std::monostate{},
+                    cell(one.measured_uncertainty), std::string("held out")});
+  }
+  return table;
+}
+
+}  // namespace
+
+Chapter table_chapter(const StudyResult& result) {
+  Chapter chapter{.id = "table", .title = "Measurements and runs", .blocks = {}};
+  const auto* joint = std::get_if<JointResult>(&result.found);
+  if (joint == nullptr || !result.provenance.table) return chapter;
+  const TableFacts& table = *result.provenance.table;
+  chapter.blocks.push_back(measured_table(*joint));
+  chapter.blocks.push_back(Paragraph{shortened(
+      fmt::format(
+          "The runs were made with another program, and are the {} rows of {}: {} of failed "
+          "runs, {} without any reading; {} more were left out. What the particles, walls "
+          "and experiments of these runs are, the table does not say.",
+          table.rows, fmt::join(table.files, ", "), table.failed, table.without_reading,
+          table.left_out),
+      1000)});
   return chapter;
 }
 

@@ -53,11 +53,11 @@ void add_study(const StudyIdentity& study, DataTable& data) {
   add(data, "hash of the study", study.hash);
   add(data, "settings (--set)", settings_text(study.settings));
   add(data, "method", study.method);
-  add(data, "budget", study.budget + ": " + study.budget_description);
+  if (!study.budget.empty()) add(data, "budget", study.budget + ": " + study.budget_description);
 }
 
 void add_model(const StudyResult& result, DataTable& data) {
-  const Provenance& from = result.provenance;
+  const ModelFacts& from = *result.provenance.model;
   add(data, "first seed", fmt::format("{}", from.first_seed));
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     add(data, "seeds", seeds_text(joint->runs));
@@ -78,11 +78,21 @@ void add_model(const StudyResult& result, DataTable& data) {
     const std::string simulated = simulated_text(*from.heap_definition);
     if (!simulated.empty()) add(data, "mean angle of the heaps simulated last", simulated);
   }
-  if (!from.assumed.empty()) {
-    add(data, "marked as assumed in the study", fmt::format("{}", fmt::join(from.assumed, ", ")));
+  const std::vector<std::string>& assumed = result.provenance.assumed;
+  if (!assumed.empty()) {
+    add(data, "marked as assumed in the study", fmt::format("{}", fmt::join(assumed, ", ")));
   }
   add(data, "fraction of the real stiffness", by_experiment(from.stiffness_factor, ""));
   add(data, "shortest time step", by_experiment(from.shortest_timestep_s, " s"));
+}
+
+void add_table(const TableFacts& table, DataTable& data) {
+  add(data, "runs", "made with another program, and given as a table");
+  add(data, "table", fmt::format("{}", fmt::join(table.files, ", ")));
+  add(data, "rows", fmt::format("{}", table.rows));
+  add(data, "rows of failed runs", fmt::format("{}", table.failed));
+  add(data, "rows without any reading", fmt::format("{}", table.without_reading));
+  add(data, "rows left out", fmt::format("{}", table.left_out));
 }
 
 std::vector<std::string> warnings_of(const StudyResult& result) {
@@ -103,7 +113,12 @@ Chapter provenance_chapter(const ReportedStudy& study) {
               .data = {.columns = {{.name = "item", .unit = {}}, {.name = "value", .unit = {}}},
                        .rows = {}}};
   if (study.study) add_study(*study.study, table.data);
-  if (study.result) add_model(*study.result, table.data);
+  if (study.result && study.result->provenance.model) add_model(*study.result, table.data);
+  if (study.result && study.result->provenance.table) {
+    add_table(*study.result->provenance.table, table.data);
+    chapter.blocks.push_back(std::move(table));
+    return chapter;
+  }
   const auto failed = std::count_if(study.runs.begin(), study.runs.end(),
                                     [](const SavedRun& run) { return !run.failure.empty(); });
   if (!study.runs.empty()) {
@@ -119,12 +134,19 @@ Chapter limits_chapter(const StudyResult& result) {
   for (const std::string& warning : warnings_of(result)) {
     chapter.blocks.push_back(Remark{shortened(warning, 1500)});
   }
-  chapter.blocks.push_back(
-      Remark{"Budget: " + shortened(result.provenance.study.budget_description, 1000) + "."});
   std::vector<const char*> limits = {
       "An interval is what these measurements allow if the model is right: it does not include "
-      "errors of the contact model, the clump's shape or the bench procedure.",
-      "Coefficients calibrated at reduced stiffness are valid only at that stiffness."};
+      "errors of the contact model, the clump's shape or the bench procedure."};
+  if (result.provenance.model) {
+    chapter.blocks.push_back(
+        Remark{"Budget: " + shortened(result.provenance.study.budget_description, 1000) + "."});
+    limits.push_back(
+        "Coefficients calibrated at reduced stiffness are valid only at that stiffness.");
+  } else {
+    limits.push_back(
+        "Between the rows of the table a smooth surface stands for the program that made them: "
+        "nothing was simulated to check it.");
+  }
   if (has_heap(result)) {
     limits.push_back(
         "A heap's angle hardly depends on restitution, and constrains only a combination of "
@@ -196,9 +218,9 @@ struct Methods {
   }
 };
 
-std::string stiffness_text(const Provenance& provenance) {
+std::string stiffness_text(const ModelFacts& model) {
   std::string text;
-  for (const auto& [experiment, factor] : provenance.stiffness_factor) {
+  for (const auto& [experiment, factor] : model.stiffness_factor) {
     if (!text.empty()) text += ", ";
     text += shortened(experiment) + ' ' + shown(factor);
   }
@@ -206,7 +228,15 @@ std::string stiffness_text(const Provenance& provenance) {
 }
 
 void add_simulation(const Provenance& provenance, Methods& methods) {
-  const ClumpFacts& clump = provenance.clump;
+  if (provenance.table) {
+    methods.add(fmt::format(
+        "{} simulations, or means of several with other seeds, were made with another program at "
+        "places that its user chose, and given to {} as a table of parameters and readings.",
+        provenance.table->rows, provenance.study.program));
+    return;
+  }
+  const ModelFacts& model = *provenance.model;
+  const ClumpFacts& clump = model.clump;
   methods.add(fmt::format(
       "Grains were simulated with the discrete element method ({}) as clumps of {} "
       "overlapping spheres ({}; volume error {} %, inertia error {} %); volume, mass "
@@ -218,7 +248,7 @@ void add_simulation(const Provenance& provenance, Methods& methods) {
                                           "standard deviation of {} %.",
                                           shown(clump.size_sd_percent))
                             : "",
-      provenance.contact_model));
+      model.contact_model));
   methods.add_equation(
       "Fₙ = (4/3) E* √R* d^(3/2),   1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂,   1/R* = 1/R₁ + "
       "1/R₂,  |Fₜ| ≤ μₛ Fₙ",
@@ -230,8 +260,8 @@ void add_simulation(const Provenance& provenance, Methods& methods) {
       "with damping that gives the stated coefficient of restitution in a central impact of two "
       "spheres ({}), and sliding friction μₛ. Rolling friction μᵣ: {}. Young's moduli were "
       "multiplied by these factors: {}.",
-      shortened(provenance.damping_definition, 400),
-      shortened(rolling_text(provenance.rolling_definition), 400), stiffness_text(provenance)));
+      shortened(model.damping_definition, 400),
+      shortened(rolling_text(model.rolling_definition), 400), stiffness_text(model)));
 }
 
 void add_angle(bool has_photographs, Methods& methods) {
@@ -246,6 +276,7 @@ void add_angle(bool has_photographs, Methods& methods) {
 
 /// Where the simulations of the fit were made, round by round.
 std::string runs_text(const JointResult& joint) {
+  if (!joint.verdict) return "The simulations are those of the table.";
   const auto all = static_cast<int>(joint.runs.size());
   const std::string made = fmt::format("{} simulations entered the fit", all);
   // Rounds count what was planned so far; the checks' runs follow.
@@ -278,11 +309,16 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       "\\chi^2(x) = \\sum_i \\frac{(f_i(x)-m_i)^2}{u_i^2+v_i(x)}, \\quad "
       "u_i = \\frac{s_i}{\\sqrt{n_i}}\\,\\frac{t_{.975,\\,n_i-1}}{1.960}");
   methods.add(
-      "where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's readings, and t "
-      "is Student's quantile. Readings of one experiment enter with the covariance of runs with "
-      "other seeds at the same place, as far as these explain the bench's scatter (shrunk: Schäfer "
-      "and Strimmer 2005). Intervals are 95 % profile-likelihood "
-      "intervals (Venzon and Moolgavkar 1988), the values xⱼ for which");
+      std::string("where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's "
+                  "readings, and t is Student's quantile") +
+      (joint.verdict
+           ? ". Readings of one experiment enter with the covariance of runs with other seeds at "
+             "the same place, as far as these explain the bench's scatter (shrunk: Schäfer and "
+             "Strimmer 2005)."
+           : ", or 1.960 where the scatter is known beforehand.") +
+      " Intervals are 95 % profile-likelihood intervals (Venzon and Moolgavkar 1988), the values "
+      "xⱼ "
+      "for which");
   methods.add_equation(
       "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
       "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84");
@@ -290,10 +326,14 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       "A coefficient is called determined when both ends of its interval lie inside the bounds and "
       "its half-width is at most 25 % of the value or what the study calls useful, bounded when "
       "the "
-      "interval is wider, one-sided when one end lies inside, undetermined otherwise. The best fit "
-      "was simulated again with "
-      "fresh "
-      "seeds, and all of these runs entered the fit. Simulated and measured means were compared by "
+      "interval is wider, one-sided when one end lies inside, undetermined otherwise.");
+  if (!joint.verdict) {
+    methods.add("The fitted parameters were not simulated to check them.");
+    return;
+  }
+  methods.add(
+      "The best fit was simulated again with fresh seeds, and all of these runs entered the fit. "
+      "Simulated and measured means were compared by "
       "Welch's t (several of one experiment by Hotelling's T²), over all experiments by the sum of "
       "the chi-squares with the same probabilities (Lancaster 1961), whose distribution takes "
       "account of what the fit could follow (Box 1954), and for equivalence by two "

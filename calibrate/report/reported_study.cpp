@@ -10,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "calibrate/experiment/run_result.h"
+#include "calibrate/runs/table_study.h"
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/study_record.h"
 #include "dem/state/state_file.h"
@@ -37,11 +38,11 @@ std::optional<double> if_finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// "heap.base_radius_mm" is a reading of the heap.
-std::vector<MeasuredNumber> measured_in(const JointResult& joint) {
+/// "heap.base_radius_mm" is a reading of the heap; in a table of runs each is its own experiment.
+std::vector<MeasuredNumber> measured_in(const JointResult& joint, bool is_of_table) {
   std::vector<MeasuredNumber> numbers;
   for (const ResultObservable& observable : joint.observables) {
-    const std::size_t dot = observable.name.find('.');
+    const std::size_t dot = is_of_table ? std::string::npos : observable.name.find('.');
     numbers.push_back(
         {.name = observable.name,
          .experiment = observable.name.substr(0, dot),
@@ -96,6 +97,15 @@ std::optional<StudyRecord> record_in(const fs::path& folder) {
     return read_study_record(folder);
   } catch (const base::InputError&) {
     return std::nullopt;  // a page without it is worth having
+  }
+}
+
+/// Of a table's study; empty where its copy cannot be read.
+dem::StudyHeading table_heading_in(const fs::path& folder) {
+  try {
+    return heading_of_table_study(folder / kStudyCopy);
+  } catch (const base::InputError&) {
+    return {};
   }
 }
 
@@ -165,13 +175,14 @@ ReportedStudy reported(const StudyResult& result, const std::vector<PictureReadi
                       .record = {},
                       .study = result.provenance.study,
                       .result = result,
+                      .heading = {},
                       .runs = {},
                       .measured = {},
                       .pictures = pictures,
                       .heap = heap};
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     study.runs = runs_of(*joint);
-    study.measured = measured_in(*joint);
+    study.measured = measured_in(*joint, result.provenance.table.has_value());
   }
   return study;
 }
@@ -206,6 +217,11 @@ ReportedStudy read_reported_study(const fs::path& folder) {
     study.pictures = pictures;
   }
   study.folder = folder;
+  if (record) {
+    study.heading = record->study.heading;
+  } else if (study.result && study.result->provenance.table) {
+    study.heading = table_heading_in(folder);
+  }
   study.record = std::move(record);
   return study;
 }

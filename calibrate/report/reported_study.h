@@ -35,6 +35,7 @@ struct ReportedStudy {
   std::optional<StudyRecord> record;   ///< none: no folder, or its copy of the study is damaged
   std::optional<StudyIdentity> study;  ///< none: an unfinished one whose study.json is gone
   std::optional<StudyResult> result;   ///< none: unfinished
+  dem::StudyHeading heading;           ///< the study's own title, author, date and note
   bool has_other_result = false;       ///< the folder has a result of other settings
   std::vector<SavedRun> runs;          ///< of the result, else all that were saved
   std::vector<MeasuredNumber> measured;

@@ -32,9 +32,9 @@ std::vector<Chapter> finished_chapters(const ReportedStudy& study, const StudyRe
   const HeapPictures pictures = heap_pictures(study);
   std::vector<Chapter> chapters;
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
-    add({answer_chapter(*joint, pictures), protocol_chapter(study), heap_chapter(pictures),
-         agreement_chapter(*joint), assumed_chapter(*joint), sensitivity_chapter(study, *joint),
-         limits_chapter(result)},
+    add({answer_chapter(*joint, pictures), protocol_chapter(study), table_chapter(result),
+         heap_chapter(pictures), agreement_chapter(*joint), assumed_chapter(*joint),
+         sensitivity_chapter(study, *joint), limits_chapter(result)},
         false, chapters);
     add({more_heaps_chapter(pictures), checks_chapter(*joint), curves_chapter(study, *joint),
          surfaces_chapter(study, *joint), knowledge_chapter(*joint), statistics_chapter(*joint),
@@ -79,8 +79,7 @@ Document document_of(const ReportedStudy& study) {
 /// Above all else: the study's own title, author, date and note.
 void put_heading(const ReportedStudy& study, Document& document) {
   constexpr std::size_t kLongest = 1000;
-  if (!study.record) return;
-  const dem::StudyHeading& heading = study.record->study.heading;
+  const dem::StudyHeading& heading = study.heading;
   if (!heading.title.empty()) document.title = shortened(heading.title);
   if (document.chapters.empty()) return;
   std::string line = shortened(heading.author);

@@ -102,7 +102,8 @@ std::string axis_of_observable(const std::string& name, const std::string& unit)
 }
 
 bool has_heap(const StudyResult& result) {
-  const NamedValues& experiments = result.provenance.stiffness_factor;
+  if (!result.provenance.model) return false;
+  const NamedValues& experiments = result.provenance.model->stiffness_factor;
   return std::any_of(experiments.begin(), experiments.end(), [](const auto& experiment) {
     return experiment.first == dem::pictured_experiment().name;
   });

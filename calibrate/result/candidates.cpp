@@ -17,7 +17,7 @@ constexpr double kMinChance = 1e-300;
 /// Of the differences of all means: the chi-square that is exceeded with their joint probability.
 double score_of_means(const JointResult& joint) {
   for (const ResultObservable& observable : joint.observables) {
-    if (observable.verification.runs == 0) return kUnbounded;
+    if (!observable.verification || observable.verification->runs == 0) return kUnbounded;
   }
   if (!std::isfinite(joint.agreement.chance)) return kUnbounded;
   const double chance = std::clamp(joint.agreement.chance, kMinChance, 1.);
@@ -63,7 +63,7 @@ Candidate candidate_of(const std::string& name, const JointResult& joint) {
   Candidate candidate{.name = name,
                       .means = score_of_means(joint),
                       .scatter = scores_of_scatter(joint),
-                      .verdict = joint.verdict,
+                      .verdict = joint.verdict.value_or(AgreementVerdict::cannot_tell),
                       .values = {}};
   for (const ResultParameter& parameter : joint.parameters) {
     candidate.values.emplace_back(parameter.name, parameter.value);

@@ -81,9 +81,8 @@ struct HeapDefinition {
   NamedValues simulated_deg;  ///< what the heaps of the last check read by each; or none
 };
 
-/// What coefficients belong to: they mean nothing without it.
-struct Provenance {
-  StudyIdentity study;
+/// How the study was simulated by this program.
+struct ModelFacts {
   std::uint64_t first_seed = 0;
   std::string contact_model;
   std::string rolling_model;
@@ -95,6 +94,22 @@ struct Provenance {
   NamedValues stiffness_factor;                        ///< of each experiment
   NamedValues shortest_timestep_s;                     ///< of each experiment's runs
   std::optional<HeapDefinition> heap_definition = {};  ///< none: there is no heap
+};
+
+/// Runs that somebody made with another program, and gave as a table.
+struct TableFacts {
+  std::vector<std::string> files;  ///< without their folders
+  int rows = 0;                    ///< runs, or means of several
+  int failed = 0;                  ///< of these, runs that failed
+  int without_reading = 0;         ///< and runs with no reading at all, of which nobody says why
+  int left_out = 0;                ///< beside these: outside the bounds, or twice in the table
+};
+
+/// What coefficients belong to: they mean nothing without it.
+struct Provenance {
+  StudyIdentity study;
+  std::optional<ModelFacts> model;  ///< none: the runs are those of a table
+  std::optional<TableFacts> table = {};
   std::vector<std::string> assumed = {};  ///< values that the study marks as not measured
 };
 
@@ -106,8 +121,10 @@ struct ResultParameter : FittedParameter {
 };
 
 struct ResultObservable : FittedObservable {
-  Agreement verification;    ///< in simulations with fresh seeds; its name and measured are these
-  SurrogateCheck surrogate;  ///< what had been expected of them; its name likewise
+  /// In simulations with fresh seeds; its name and measured are these. None were made where the
+  /// runs are those of a table.
+  std::optional<Agreement> verification;
+  std::optional<SurrogateCheck> surrogate;  ///< what had been expected of them; its name likewise
   NamedValues systematic = {};  ///< what systematic_uncertainty is made of, in quadrature
 };
 
@@ -119,7 +136,7 @@ struct OverallAgreement {
   std::string text;            ///< the verdict in plain words, a sentence
   double chance = 0;           ///< that all observables together differ so much by chance
   int rounds = 0;              ///< of check and refit
-  std::vector<double> values;  ///< the parameters checked last
+  std::vector<double> values;  ///< the parameters checked last; empty: none were
 };
 
 /// A set of parameters that fits as well as the best one.
@@ -148,8 +165,9 @@ struct ObservableSurface {
 struct JointResult {
   std::vector<ResultParameter> parameters;
   std::vector<ResultObservable> observables;
-  /// Of the last check with fresh seeds; which parameters it was of is in `agreement`.
-  AgreementVerdict verdict = AgreementVerdict::cannot_tell;
+  /// Of the last check with fresh seeds; which parameters it was of is in `agreement`. None: there
+  /// was none, and nothing is known but what surfaces through the runs say.
+  std::optional<AgreementVerdict> verdict;
   OverallAgreement agreement;
   std::vector<Prediction> held_out;  ///< readings that were predicted, not fitted; or none
   std::vector<SensitivityCheck> stiffness_checks;  ///< of softened experiments; or none

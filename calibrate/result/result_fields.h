@@ -25,6 +25,7 @@ void fields(Io& io, Held<Io, StudyIdentity>& study) {
     inner("hash", study.hash);
     inner("settings", study.settings);
   });
+  if (!io.has("budget", !study.budget.empty())) return;  // nothing was simulated
   io.object("budget", [&](Io& inner) {
     inner("name", study.budget);
     inner("description", study.budget_description);
@@ -50,21 +51,40 @@ void fields(Io& io, Held<Io, HeapDefinition>& definition) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, ModelFacts>& model) {
+  io("first_seed", model.first_seed);
+  io("contact_model", model.contact_model);
+  io("rolling_model", model.rolling_model);
+  io("rolling_definition", model.rolling_definition);
+  if (io.has("damping", true)) {
+    io("damping", model.damping);
+    io("damping_definition", model.damping_definition);
+  }
+  io("clump", model.clump);
+  io("stiffness_factor", model.stiffness_factor);
+  io("shortest_timestep_s", model.shortest_timestep_s);
+  if (io.has("heap_definition", model.heap_definition.has_value())) {
+    io("heap_definition", model.heap_definition);
+  }
+}
+
+template <typename Io>
+void fields(Io& io, Held<Io, TableFacts>& table) {
+  io("files", table.files);
+  io("rows", table.rows);
+  io("failed", table.failed);
+  io("without_reading", table.without_reading);
+  io("left_out", table.left_out);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, Provenance>& provenance) {
   fields(io, provenance.study);
-  io("first_seed", provenance.first_seed);
-  io("contact_model", provenance.contact_model);
-  io("rolling_model", provenance.rolling_model);
-  io("rolling_definition", provenance.rolling_definition);
-  if (io.has("damping", true)) {
-    io("damping", provenance.damping);
-    io("damping_definition", provenance.damping_definition);
-  }
-  io("clump", provenance.clump);
-  io("stiffness_factor", provenance.stiffness_factor);
-  io("shortest_timestep_s", provenance.shortest_timestep_s);
-  if (io.has("heap_definition", provenance.heap_definition.has_value())) {
-    io("heap_definition", provenance.heap_definition);
+  if (io.has("table", provenance.table.has_value())) {
+    io("table", provenance.table);
+  } else {
+    if constexpr (Io::kReads) provenance.model.emplace();
+    fields(io, *provenance.model);
   }
   if (io.has("assumed", !provenance.assumed.empty())) io("assumed", provenance.assumed);
 }
@@ -77,7 +97,7 @@ void fields(Io& io, Held<Io, Prior>& prior) {
 
 template <typename Io>
 void fields(Io& io, Held<Io, Narrowing>& narrowing) {
-  io("hour", narrowing.hour);
+  if (io.has("hour", narrowing.hour.has_value())) io("hour", narrowing.hour);
   io("exact", narrowing.exact);
   io("readings", narrowing.readings);
 }
@@ -137,7 +157,9 @@ void fields(Io& io, Held<Io, OverallAgreement>& agreement) {
   io("text", agreement.text);
   io("p", agreement.chance);
   io("rounds", agreement.rounds);
-  by_name(io, "checked_at", io.names().parameters, agreement.values);
+  if (io.has("checked_at", !agreement.values.empty())) {
+    by_name(io, "checked_at", io.names().parameters, agreement.values);
+  }
 }
 
 template <typename Io>
@@ -166,10 +188,14 @@ void fields(Io& io, Held<Io, ResultObservable>& observable) {
   io("verification", observable.verification);
   io("surrogate_check", observable.surrogate);
   if constexpr (Io::kReads) {
-    observable.verification.observable = observable.surrogate.observable = observable.name;
-    observable.verification.measured = observable.measured;
-    observable.verification.measured_uncertainty = observable.measured_uncertainty;
-    observable.surrogate.simulated = observable.verification.simulated;
+    if (observable.verification.has_value() != observable.surrogate.has_value()) {
+      Io::refuse("surrogate_check", "must be there where verification is, and only there");
+    }
+    if (!observable.verification) return;
+    observable.verification->observable = observable.surrogate->observable = observable.name;
+    observable.verification->measured = observable.measured;
+    observable.verification->measured_uncertainty = observable.measured_uncertainty;
+    observable.surrogate->simulated = observable.verification->simulated;
   }
 }
 
@@ -364,6 +390,10 @@ void fields(Io& io, Held<Io, Run>& run) {
   by_name(io, "values", io.names().parameters, run.job.values);
   io("readings", run.readings);
   io.text_or_null("failure", run.failure);
+  if (io.has("repeats", run.repeats > 1)) {
+    io("repeats", run.repeats);
+    io("repeat_sd", run.repeat_sd);
+  }
 }
 
 template <typename Items>

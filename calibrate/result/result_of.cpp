@@ -109,11 +109,10 @@ std::vector<ResultParameter> parameters_of(const Problem& problem, const JointFi
   return parameters;
 }
 
-std::vector<ResultObservable> observables_of(const Problem& problem, const StudyOutcome& outcome) {
+std::vector<ResultObservable> observables_of(const Problem& problem, const JointFit& fit) {
   std::vector<ResultObservable> observables;
-  for (std::size_t k = 0; k < outcome.fit.observables.size(); ++k) {
-    observables.push_back(
-        {outcome.fit.observables[k], outcome.best.observables[k], outcome.surrogates[k]});
+  for (std::size_t k = 0; k < fit.observables.size(); ++k) {
+    observables.push_back({fit.observables[k], {}, {}});
     for (const SystematicPart& part : problem.observables[k].systematic) {
       observables.back().systematic.emplace_back(part.name, part.sd);
     }
@@ -205,22 +204,23 @@ Provenance provenance_of(const StudyRecord& record, const Problem& problem,
     const dem::Experiment simulated = &dem::experiment_named(experiment.name);
     stiffness.emplace_back(experiment.name, dem::model_for(study, simulated).stiffness_factor);
   }
-  return {.study = identity_of(record),
-          .first_seed = study.seed,
-          .contact_model = std::string(dem::kContactModel),
-          .rolling_model = dem::name_of(study.model.rolling),
-          .rolling_definition = dem::rolling_definition(study.model.rolling),
-          .damping = dem::name_of(study.model.damping),
-          .damping_definition = dem::damping_definition(study.model),
-          .clump = {.source = record.grain.source,
-                    .spheres = record.grain.shape.spheres.size(),
-                    .volume_error = record.grain.errors.volume_error,
-                    .inertia_error = record.grain.errors.inertia_error,
-                    .size_sd_percent = size_sd_percent(study.model)},
-          .stiffness_factor = stiffness,
-          .shortest_timestep_s = shortest_timesteps(runs),
-          .heap_definition = heap_definition_of(record, problem, heap_angles_deg),
-          .assumed = study.assumed};
+  return {
+      .study = identity_of(record),
+      .model = ModelFacts{.first_seed = study.seed,
+                          .contact_model = std::string(dem::kContactModel),
+                          .rolling_model = dem::name_of(study.model.rolling),
+                          .rolling_definition = dem::rolling_definition(study.model.rolling),
+                          .damping = dem::name_of(study.model.damping),
+                          .damping_definition = dem::damping_definition(study.model),
+                          .clump = {.source = record.grain.source,
+                                    .spheres = record.grain.shape.spheres.size(),
+                                    .volume_error = record.grain.errors.volume_error,
+                                    .inertia_error = record.grain.errors.inertia_error,
+                                    .size_sd_percent = size_sd_percent(study.model)},
+                          .stiffness_factor = stiffness,
+                          .shortest_timestep_s = shortest_timesteps(runs),
+                          .heap_definition = heap_definition_of(record, problem, heap_angles_deg)},
+      .assumed = study.assumed};
 }
 
 PublishedVerification verification_of(const PublishedOutcome& outcome) {
@@ -241,51 +241,37 @@ PublishedVerification verification_of(const PublishedOutcome& outcome) {
 
 }  // namespace
 
-StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
-                      const StudyOutcome& outcome) {
-  const JointFit& fit = outcome.fit;
-  JointResult joint{.parameters = parameters_of(problem.problem, fit),
-                    .observables = observables_of(problem.problem, outcome),
-                    .verdict = outcome.best.verdict,
-                    .agreement = agreement_of(outcome),
-                    .held_out = outcome.predictions,
-                    .stiffness_checks = outcome.stiffness.readings,
-                    .stiffer_coefficients = outcome.stiffness.coefficients,
-                    .shape_check = outcome.shape,
-                    .assumed_scatters = outcome.assumed_scatters,
-                    .assumed_inputs = outcome.inputs,
-                    .with_assumed = outcome.combined,
-                    .inputs_taken_as_exact = outcome.inputs.empty()
-                                                 ? std::vector<std::string>{}
-                                                 : dem::inputs_taken_as_exact(record.study),
+JointResult fitted_result(const Problem& problem, const JointFit& fit,
+                          const std::vector<Run>& runs) {
+  JointResult joint{.parameters = parameters_of(problem, fit),
+                    .observables = observables_of(problem, fit),
+                    .verdict = {},
+                    .agreement = {.text = {}, .chance = std::nan(""), .rounds = 0, .values = {}},
+                    .held_out = {},
+                    .stiffness_checks = {},
+                    .stiffer_coefficients = {},
+                    .shape_check = {},
+                    .assumed_inputs = {},
+                    .with_assumed = {},
+                    .inputs_taken_as_exact = {},
                     .chi2 = fit.chi2,
                     .degrees_of_freedom = fit.freedom.degrees,
                     .model_error_scale = fit.model_error_scale,
                     .correlation = fit.correlation,
                     .reading_correlation = fit.reading_correlation,
                     .bench_correlation = fit.bench_correlation,
-                    .equivalence_family = family_of(problem.problem, outcome),
-                    .additions = outcome.fit.additions,
+                    .equivalence_family = {},
+                    .additions = fit.additions,
                     .candidates = {},
-                    .warnings = problem.notes,
+                    .warnings = {},
                     .surrogates = fit.surrogates,
                     .rounds = fit.rounds,
                     .responses = fit.curves,
                     .surfaces = fit.surfaces,
-                    .regressions = regressions_of(problem.problem, outcome.runs),
-                    .runs = outcome.runs};
-  double hop_mm = 0;
-  for (const Run& run : outcome.runs) {
-    const auto hop = run.readings.find("hop_mm");
-    if (hop != run.readings.end()) hop_mm = std::max(hop_mm, hop->second);
-  }
-  for (std::string warning :
-       {dem::warning_of_shape(record.grain),
-        warning_of_hops(record.study.model.rolling, record.grain.shape, hop_mm)}) {
-    if (!warning.empty()) joint.warnings.push_back(std::move(warning));
-  }
-  for (const auto* more : {&outcome.notes, &fit.warnings}) {
-    joint.warnings.insert(joint.warnings.end(), more->begin(), more->end());
+                    .regressions = regressions_of(problem, runs),
+                    .runs = runs};
+  for (const ParameterSet& set : fit.equivalence_family) {
+    joint.equivalence_family.push_back({set, std::nullopt, {}});
   }
   for (SurrogateQuality& surrogate : joint.surrogates) {
     surrogate.warp = 0;
@@ -298,6 +284,44 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
   }
   for (ResponseSurface& surface : joint.surfaces) {
     for (std::vector<double>& row : surface.simulated) round_for_drawing(row);
+  }
+  return joint;
+}
+
+StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
+                      const StudyOutcome& outcome) {
+  const JointFit& fit = outcome.fit;
+  JointResult joint = fitted_result(problem.problem, fit, outcome.runs);
+  for (std::size_t k = 0; k < joint.observables.size(); ++k) {
+    joint.observables[k].verification = outcome.best.observables[k];
+    joint.observables[k].surrogate = outcome.surrogates[k];
+  }
+  joint.verdict = outcome.best.verdict;
+  joint.agreement = agreement_of(outcome);
+  joint.held_out = outcome.predictions;
+  joint.stiffness_checks = outcome.stiffness.readings;
+  joint.stiffer_coefficients = outcome.stiffness.coefficients;
+  joint.shape_check = outcome.shape;
+  joint.assumed_scatters = outcome.assumed_scatters;
+  joint.assumed_inputs = outcome.inputs;
+  joint.with_assumed = outcome.combined;
+  if (!outcome.inputs.empty()) {
+    joint.inputs_taken_as_exact = dem::inputs_taken_as_exact(record.study);
+  }
+  joint.equivalence_family = family_of(problem.problem, outcome);
+  joint.warnings = problem.notes;
+  double hop_mm = 0;
+  for (const Run& run : outcome.runs) {
+    const auto hop = run.readings.find("hop_mm");
+    if (hop != run.readings.end()) hop_mm = std::max(hop_mm, hop->second);
+  }
+  for (std::string warning :
+       {dem::warning_of_shape(record.grain),
+        warning_of_hops(record.study.model.rolling, record.grain.shape, hop_mm)}) {
+    if (!warning.empty()) joint.warnings.push_back(std::move(warning));
+  }
+  for (const auto* more : {&outcome.notes, &fit.warnings}) {
+    joint.warnings.insert(joint.warnings.end(), more->begin(), more->end());
   }
   return {
       .provenance = provenance_of(record, problem.problem, outcome.runs, outcome.heap_angles_deg),

@@ -368,6 +368,7 @@ std::string predictions_text(const JointResult& joint) {
 }
 
 std::string agreement_sentence(const JointResult& joint) {
+  if (!joint.verdict) return fmt::format("Not checked in simulations: {}.", joint.agreement.text);
   const bool is_doubtful = joint.verdict == AgreementVerdict::disagrees;
   return fmt::format("In simulations with fresh seeds, {}.{}", joint.agreement.text,
                      is_doubtful ? " Do not use these coefficients until you know why." : "");
@@ -429,7 +430,7 @@ std::vector<EquivalentSet> good_sets(const JointResult& joint) {
   best.verdict = joint.verdict;
   for (const ResultParameter& parameter : joint.parameters) best.values.push_back(parameter.value);
   for (const ResultObservable& one : joint.observables) {
-    best.simulated.push_back(one.verification.simulated);
+    if (one.verification) best.simulated.push_back(one.verification->simulated);
   }
   std::vector<EquivalentSet> sets = {std::move(best)};
   sets.insert(sets.end(), joint.equivalence_family.begin(), joint.equivalence_family.end());

@@ -32,24 +32,25 @@ void note_all(const Note& note, const std::vector<std::string>& lines) {
 std::string study_name(const std::optional<StudyIdentity>& study) {
   if (!study) return "unknown";
   return fmt::format("{}{}_{}", study->method == "joint" ? std::string() : study->method + '_',
-                     study->budget, study->hash.substr(0, study->hash.find('-')));
+                     study->budget.empty() ? "table" : study->budget,
+                     study->hash.substr(0, study->hash.find('-')));
 }
 
-/// Before the folder is this study's: the result of another study, method or budget stays, as
-/// "result_quick_1b9d6bcd.json", and the heap that belongs to it.
-void set_aside_old_result(const PreparedStudy& study, const Note& note) {
-  const fs::path file = study.folder / kResultFile;
+}  // namespace
+
+void set_aside_old_result(const fs::path& folder, const StudyIdentity& study, const Note& note) {
+  const fs::path file = folder / kResultFile;
   const auto text = base::read_file_if_there(file);
   if (!text) return;
   const auto old = study_in_result(*text);
-  if (old && is_same_study(*old, identity_of(study.record))) return;
+  if (old && is_same_study(*old, study)) return;
   const std::string name = fmt::format("result_{}.json", study_name(old));
-  const fs::path heap = study.folder / kHeapFile;
+  const fs::path heap = folder / kHeapFile;
   std::error_code error;
   if (fs::exists(heap, error)) {
-    fs::rename(heap, study.folder / fmt::format("heap_{}.vtp", study_name(old)), error);
+    fs::rename(heap, folder / fmt::format("heap_{}.vtp", study_name(old)), error);
   }
-  if (!error) fs::rename(file, study.folder / name, error);
+  if (!error) fs::rename(file, folder / name, error);
   if (error) {
     throw base::InputError(
         {.where = file.string(),
@@ -60,6 +61,8 @@ void set_aside_old_result(const PreparedStudy& study, const Note& note) {
   note_all(note, {fmt::format("{}: belonged to another study, settings or budget; renamed to {}",
                               file.string(), name)});
 }
+
+namespace {
 
 /// What `fitted` returns, and then what was found damaged in the store.
 template <typename Fitted>
@@ -162,7 +165,7 @@ void complete_record(StudyRecord& record, std::vector<std::string>& notes) {
 }
 
 void enter_folder(const PreparedStudy& study, const Note& note) {
-  set_aside_old_result(study, note);
+  set_aside_old_result(study.folder, identity_of(study.record), note);
   write_study_record(study.folder, study.record);
 }
 

@@ -61,6 +61,12 @@ struct PreparedStudy {
 std::optional<base::Fault> fault_of_folder(const std::filesystem::path& folder,
                                            const std::filesystem::path& study_file);
 
+/// Before the folder is this study's: the result of another study, method or budget stays, as
+/// "result_quick_1b9d6bcd.json", and the heap that belongs to it, which is noted.
+/// @throws base::InputError  it cannot be renamed.
+void set_aside_old_result(const std::filesystem::path& folder, const StudyIdentity& study,
+                          const Note& note);
+
 /// Makes the grain of a record whose study was read and whose bench was measured, and takes the
 /// readings into the study.
 /// @param notes  what was repaired, and what to know of the shape, is added

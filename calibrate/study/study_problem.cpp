@@ -81,22 +81,28 @@ GrainSpheres spheres_of(const dem::GrainSource& source, const dem::ClumpShape& g
   return {.count = count, .most = dem::kMaxSpheres, .no_closer = {}};
 }
 
+}  // namespace
+
+Parameter sought_parameter(const std::string& name, const dem::Coefficient& coefficient) {
+  Parameter parameter{.name = name, .min = coefficient.min, .max = coefficient.max, .prior = {}};
+  if (coefficient.known_mean) {
+    parameter.prior = Prior{*coefficient.known_mean, *coefficient.known_sd};
+  }
+  parameter.useful_half_width = coefficient.useful_half_width;
+  if (coefficient.are_bounds_known) {
+    parameter.bounds_are =
+        *coefficient.are_bounds_known ? BoundsOrigin::known : BoundsOrigin::convenience;
+  }
+  return parameter;
+}
+
+namespace {
+
 std::vector<Parameter> open_parameters(const dem::Study& study) {
   std::vector<Parameter> parameters;
   for (const NamedCoefficient& named : coefficients_of(study)) {
     if (!named.coefficient.is_free()) continue;
-    Parameter parameter{.name = named.name,
-                        .min = named.coefficient.min,
-                        .max = named.coefficient.max,
-                        .prior = {}};
-    if (named.coefficient.known_mean) {
-      parameter.prior = Prior{*named.coefficient.known_mean, *named.coefficient.known_sd};
-    }
-    parameter.useful_half_width = named.coefficient.useful_half_width;
-    if (named.coefficient.are_bounds_known) {
-      parameter.bounds_are =
-          *named.coefficient.are_bounds_known ? BoundsOrigin::known : BoundsOrigin::convenience;
-    }
+    Parameter parameter = sought_parameter(named.name, named.coefficient);
     for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
       if (entry.tells == parameter.name) parameter.identified_by.emplace_back(entry.name);
     }

@@ -24,6 +24,9 @@ struct Budget {
 /// "quick", "standard" or "paper". Throws base::InputError for another name.
 Budget budget_named(const std::string& name);
 
+/// A coefficient with bounds, as the fit seeks it.
+Parameter sought_parameter(const std::string& name, const dem::Coefficient& coefficient);
+
 /// The bench's angle is given as a number, and not by which definition it was measured. Pictures,
 /// films and sheets are measured by ours.
 bool is_definition_assumed(const dem::ExperimentEntry& entry,

@@ -180,16 +180,20 @@ void keep(const fs::path& file, const std::string& text) {
 
 }  // namespace
 
-void write_study_record(const fs::path& folder, const StudyRecord& record) {
-  const std::string study = base::read_whole_file(record.study.file);
-  const std::string clump = dem::clump_json(record.grain);
-  const StudyNotes notes{.study = identity_of(record),
-                         .measurement = record.measurement,
-                         .fingerprints = {{kStudyCopy, base::fingerprint({study})},
-                                          {kClumpCopy, base::fingerprint({clump})}}};
-  keep(folder / kStudyCopy, study);
-  keep(folder / kClumpCopy, clump);
+void write_study_files(const fs::path& folder, StudyNotes notes,
+                       const std::map<std::string, std::string>& copies) {
+  for (const auto& [name, text] : copies) {
+    keep(folder / name, text);
+    notes.fingerprints[name] = base::fingerprint({text});
+  }
   keep(folder / kNotesFile, json_text(notes_json(notes)));
+}
+
+void write_study_record(const fs::path& folder, const StudyRecord& record) {
+  write_study_files(
+      folder, {.study = identity_of(record), .measurement = record.measurement, .fingerprints = {}},
+      {{kStudyCopy, base::read_whole_file(record.study.file)},
+       {kClumpCopy, dem::clump_json(record.grain)}});
 }
 
 std::optional<StudyNotes> read_study_notes(const fs::path& folder) {
@@ -209,6 +213,12 @@ StudyRecord read_study_record(const fs::path& folder) {
   if (!notes) {
     base::refuse(folder, fmt::format("is not the folder of a study: it contains no {}", kNotesFile),
                  "name the output folder of repose calibrate.");
+  }
+  if (notes->study.budget.empty()) {
+    base::refuse(folder,
+                 "its runs are those of a table, made with another program: there is no particle, "
+                 "contact model or experiment to simulate or to export",
+                 "use its parameters in that program; repose report shows them.");
   }
   StudyRecord record;
   record.settings = notes->study.settings;

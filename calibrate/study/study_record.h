@@ -58,6 +58,11 @@ struct StudyRecord {
 
 StudyIdentity identity_of(const StudyRecord& record);
 
+/// Writes copies into the folder, and then study.json with their fingerprints.
+/// @throws base::InputError  they cannot be written.
+void write_study_files(const std::filesystem::path& folder, StudyNotes notes,
+                       const std::map<std::string, std::string>& copies);
+
 /// Writes FOLDER/study.toml (a copy), clump.json and study.json. The study's file must be there.
 /// @throws base::InputError  they cannot be written.
 void write_study_record(const std::filesystem::path& folder, const StudyRecord& record);

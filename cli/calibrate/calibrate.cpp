@@ -15,6 +15,7 @@
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_options.h"
+#include "cli/calibrate/calibrate_runs.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/calibrate/dry_run.h"
 #include "cli/calibrate/paper_table.h"
@@ -118,6 +119,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 }  // namespace
 
 ExitCode run_calibrate(const CalibrateArguments& arguments) {
+  if (!arguments.runs.empty()) return run_calibrate_runs(arguments);
   if (!arguments.rolling_models.empty()) return run_rolling_models(arguments);
   if (calibrate::is_launched_as_rank()) {
     if (arguments.is_dry_run) {

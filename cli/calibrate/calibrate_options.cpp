@@ -151,11 +151,16 @@ bench readings, and saves nothing.
 of them, in folders of their own, and says which one explains the bench readings
 best: their means, and how much they scatter.
 
+With --runs nothing is simulated: STUDY has [parameter] and [measured] in place of
+a particle, RUNS.csv a row for each run of any program, with the columns of both
+and, if known, NAME_sd and n of runs that a row is the mean of, seed and status.
+
 Examples:
   repose calibrate study.toml --dry-run
   repose calibrate study.toml
   repose calibrate study.toml --rolling-models constant_torque,elastic_plastic
   repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
+  repose calibrate table.toml --runs runs.csv
 )";
 
 }  // namespace
@@ -165,18 +170,18 @@ Command calibrate_command() {
   return {
       .name = "calibrate",
       .summary = "Calibrate a study's coefficients",
-      .options = {{"study", "STUDY.toml", "Study file", &given->study, true},
-                  {"--budget", "quick|standard|paper", "Limit on the simulations (quick)",
-                   &given->budget},
-                  {"--method", "joint|paper", "Method of calibration (joint)", &given->method},
-                  {"--rolling-models", "A,B", "Fit the study with each, and compare them",
-                   &given->rolling_models},
-                  {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
-                   &given->settings},
-                  {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
-                  {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
-                  {"--dry-run", "", "Only estimate how long each budget takes", &given->is_dry_run},
-                  {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
+      .options =
+          {{"study", "STUDY.toml", "Study file", &given->study, true},
+           {"--budget", "quick|standard|paper", "Limit on the simulations (quick)", &given->budget},
+           {"--method", "joint|paper", "Method of calibration (joint)", &given->method},
+           {"--rolling-models", "A,B", "Fit the study with each, and compare them",
+            &given->rolling_models},
+           {"--runs", "RUNS.csv", "Fit to runs of another program; repeatable", &given->runs},
+           {"--set", "KEY=VALUE", "Replace a value of the study; repeatable", &given->settings},
+           {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
+           {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
+           {"--dry-run", "", "Only estimate how long each budget takes", &given->is_dry_run},
+           {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
       .notes = kCalibrateNotes,
       .missing = "no study file given. Fix: repose calibrate STUDY.toml.",
       .fields = kCalibrateFields,

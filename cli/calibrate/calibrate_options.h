@@ -22,6 +22,7 @@ struct CalibrateArguments {
   std::string method = "joint";
   std::string budget = "quick";
   std::string rolling_models;
+  std::vector<std::string> runs = {};  ///< tables of another program's; empty: simulated here
   std::string jobs;
   std::string out_folder;
   std::string json_file;

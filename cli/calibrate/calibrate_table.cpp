@@ -59,7 +59,7 @@ Table observables_table(const calibrate::JointResult& joint) {
                number_column("difference / σ"),
                {.heading = "verdict"}});
   for (const calibrate::ResultObservable& observable : joint.observables) {
-    const calibrate::Agreement& checked = observable.verification;
+    const calibrate::Agreement& checked = *observable.verification;
     table.add_row(
         {observable.unit.empty() ? observable.name
                                  : fmt::format("{} [{}]", observable.name, observable.unit),
@@ -114,8 +114,33 @@ void add_assumed_scatter(const calibrate::JointResult& joint, Page& page) {
                   readings));
 }
 
+/// What surfaces through the runs give, where nothing was simulated again.
+void add_fitted(const calibrate::JointResult& joint, Page& page) {
+  Table table({{.heading = "observable"},
+               number_column("measured"),
+               number_column("by the surface"),
+               number_column("difference / σ")});
+  for (const calibrate::ResultObservable& one : joint.observables) {
+    table.add_row({one.unit.empty() ? one.name : fmt::format("{} [{}]", one.name, one.unit),
+                   pair(one.measured, one.measured_uncertainty),
+                   pair(one.simulated, one.simulated_uncertainty),
+                   fmt::format("{:+.1f}", one.difference_sigma)});
+  }
+  page.add_gap();
+  page.add("Not checked in simulations; what surfaces through the table's runs give:");
+  page.add(table);
+  if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
+    page.add(fmt::format("({})", freedom));
+  }
+  page.add("(± is the standard uncertainty of the mean)");
+}
+
 /// Of each experiment that does not agree what would decide it.
 void add_agreement(const calibrate::JointResult& joint, Page& page) {
+  if (!joint.verdict) {
+    add_fitted(joint, page);
+    return;
+  }
   page.add_gap();
   page.add(fmt::format(
       "Simulated with fresh seeds in {}:",
@@ -126,9 +151,9 @@ void add_agreement(const calibrate::JointResult& joint, Page& page) {
   }
   page.add("(± is the standard uncertainty of the mean)");
   for (const calibrate::ResultObservable& observable : joint.observables) {
-    if (observable.verification.verdict == calibrate::AgreementVerdict::agrees) continue;
+    if (observable.verification->verdict == calibrate::AgreementVerdict::agrees) continue;
     page.add(fmt::format("{}: {}.", observable.name,
-                         agreement_text(observable.verification, observable.unit)));
+                         agreement_text(*observable.verification, observable.unit)));
   }
 }
 
@@ -159,10 +184,13 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
   for (const calibrate::Prediction& prediction : joint.held_out) {
     page.add(prediction_text(prediction) + '.');
   }
-  page.add(fmt::format(
-      "(not fitted: predicted by simulations at {} sets of coefficients that the fit leaves "
-      "plausible)",
-      calibrate::kDrawnSets));
+  page.add(
+      joint.verdict
+          ? fmt::format("(not fitted: predicted by simulations at {} sets of coefficients that "
+                        "the fit leaves plausible)",
+                        calibrate::kDrawnSets)
+          : std::string("(not fitted: predicted by surfaces through the table's runs, at sets "
+                        "of coefficients that the fit leaves plausible)"));
 }
 
 /// How a check of an assumed input is told.
@@ -285,6 +313,7 @@ void add_inputs(const calibrate::JointResult& joint, Page& page) {
 std::string symbol_of(const std::string& coefficient) {
   const std::string name = short_name(coefficient);
   const std::size_t dot = name.find('.');
+  if (dot == std::string::npos) return name;
   const std::string what = name.substr(dot + 1);
   std::string with = name.substr(0, dot);
   if (with == "particle_particle") with = "grain";
@@ -304,17 +333,18 @@ void add_sets(const calibrate::JointResult& joint, Page& page) {
   for (const calibrate::ResultParameter& parameter : joint.parameters) {
     columns.push_back(number_column(symbol_of(parameter.name)));
   }
-  columns.push_back({.heading = "simulated"});
+  if (joint.verdict) columns.push_back({.heading = "simulated"});
   Table table(std::move(columns));
   for (std::size_t k = 0; k < sets.size(); ++k) {
     std::vector<std::string> cells = {fmt::format("{}", k + 1)};
     for (const double value : sets[k].values) cells.push_back(four_digits(value));
-    cells.push_back(sets[k].verdict ? name_of(*sets[k].verdict) : kMissing);
+    if (joint.verdict) cells.push_back(sets[k].verdict ? name_of(*sets[k].verdict) : kMissing);
     table.add_row(std::move(cells));
   }
   page.add_gap();
   page.add(fmt::format("Equally good sets, the best one first. {}", calibrate::kUseOneRow));
   page.add(table);
+  if (!joint.verdict) return;
   page.add(
       "(e restitution, μs sliding friction, μr rolling friction; of a grain with the wall, or with "
       "another grain; repose export writes set 1, or another with --set-number)");
@@ -347,7 +377,8 @@ void add_bounds(const calibrate::JointResult& joint, Page& page) {
 void add_additions(const calibrate::JointResult& joint, Page& page) {
   if (joint.additions.empty()) return;
   page.add_gap();
-  page.add("For the study file (repose plan tells what each would give):");
+  page.add(joint.verdict ? "For the study file (repose plan tells what each would give):"
+                         : "For the study file, with a table of what the bench read:");
   for (const calibrate::StudyAddition& addition : joint.additions) {
     page.add_gap();
     page.add_lines(addition.lines);
@@ -356,8 +387,8 @@ void add_additions(const calibrate::JointResult& joint, Page& page) {
 
 /// By what heaps were measured.
 void add_heap_definition(const calibrate::Provenance& provenance, Page& page) {
-  if (!provenance.heap_definition) return;
-  const calibrate::HeapDefinition& definition = *provenance.heap_definition;
+  if (!provenance.model || !provenance.model->heap_definition) return;
+  const calibrate::HeapDefinition& definition = *provenance.model->heap_definition;
   page.add_gap();
   const std::string simulated = simulated_text(definition);
   page.add(fmt::format(
@@ -376,7 +407,18 @@ void add_assumed(const calibrate::Provenance& provenance, Page& page) {
       fmt::format("Assumed in the study, not measured: {}.", fmt::join(provenance.assumed, ", ")));
 }
 
-std::string belongs_to_text(const calibrate::Provenance& of) {
+/// Counts as `calibrate` found them in the table.
+std::string table_text(const calibrate::TableFacts& table) {
+  return fmt::format(
+      "These parameters are valid for the program, particles and settings that the {} runs of {} "
+      "were made with ({} failed, {} without a reading; {} rows were left out).",
+      table.rows, fmt::join(table.files, ", "), table.failed, table.without_reading,
+      table.left_out);
+}
+
+std::string belongs_to_text(const calibrate::Provenance& provenance) {
+  if (provenance.table) return table_text(*provenance.table);
+  const calibrate::ModelFacts& of = *provenance.model;
   std::string stiffness;
   for (const auto& [experiment, factor] : of.stiffness_factor) {
     stiffness += fmt::format("{}{} {:g}", stiffness.empty() ? "" : ", ", experiment, factor);
@@ -392,7 +434,7 @@ std::string belongs_to_text(const calibrate::Provenance& of) {
           ? fmt::format(", in bulks of sizes with a standard deviation of {:.3g} %",
                         *clump.size_sd_percent)
           : "",
-      stiffness, of.study.budget, of.study.budget_description);
+      stiffness, provenance.study.budget, provenance.study.budget_description);
 }
 
 }  // namespace

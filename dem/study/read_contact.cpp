@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "dem/contact/model_names.h"
+#include "dem/study/read_shared.h"
 
 namespace repose::dem {
 namespace {
@@ -19,10 +20,9 @@ constexpr Range kExponent = from_to(0, kMaxRestitutionExponent);
 constexpr Range kFriction = from_to(0, 100);
 
 /// What is known beforehand: { min = 0.1, max = 0.6, mean = 0.3, sd = 0.05 }.
-void read_known(Section& bounds, Coefficient& coefficient) {
-  constexpr double kMax = 100;
-  coefficient.known_mean = bounds.number("mean", from_to(0, kMax), "mean = 0.3");
-  coefficient.known_sd = bounds.number("sd", above(0, kMax), "sd = 0.05");
+void read_known(Section& bounds, const BoundsRules& rules, Coefficient& coefficient) {
+  coefficient.known_mean = bounds.number("mean", rules.mean, "mean = 0.3");
+  coefficient.known_sd = bounds.number("sd", rules.widths, "sd = 0.05");
   if (bounds.has("mean") != bounds.has("sd")) {
     bounds.errors().add(bounds.place(),
                         fmt::format("{} has {}", bounds.path(),
@@ -46,21 +46,22 @@ void read_origin(Section& bounds, Coefficient& coefficient) {
       "\"known\", where no such material lies outside, or \"convenience\"", example);
 }
 
-void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
-                 const std::string& example, Coefficient& coefficient) {
-  coefficient.value = bounds.number("value", range, "value = 0.3");
-  const auto min = bounds.number("min", range, example);
-  const auto max = bounds.number("max", range, example);
+}  // namespace
+
+void read_bounds(Section bounds, const ConfigValue& whole, const BoundsRules& rules,
+                 const std::string& example, bool takes_value, Coefficient& coefficient) {
+  if (takes_value) coefficient.value = bounds.number("value", rules.bounds, "value = 0.3");
+  const auto min = bounds.number("min", rules.bounds, example);
+  const auto max = bounds.number("max", rules.bounds, example);
   for (const char* key : {"min", "max"}) {
     if (bounds.has(key)) continue;
     bounds.errors().add(bounds.place(), fmt::format("{}.{} is missing", bounds.path(), key),
                         "both bounds, or a number", "for example " + example);
   }
-  read_known(bounds, coefficient);
+  read_known(bounds, rules, coefficient);
   read_origin(bounds, coefficient);
-  constexpr double kMaxWidth = 100;
   coefficient.useful_half_width =
-      bounds.number("useful_half_width", above(0, kMaxWidth), "useful_half_width = 0.05");
+      bounds.number("useful_half_width", rules.widths, "useful_half_width = 0.05");
   bounds.reject_unknown_keys();
   if (!min || !max) return;
   coefficient.min = *min;
@@ -81,6 +82,8 @@ void read_bounds(Section bounds, const ConfigValue& whole, const Range& range,
   }
 }
 
+namespace {
+
 Coefficient read_coefficient(Section& pair, const std::string& key, const Range& range,
                              const std::string& number,
                              const std::string& some_bounds = "{ min = 0.1, max = 0.6 }") {
@@ -92,7 +95,10 @@ Coefficient read_coefficient(Section& pair, const std::string& key, const Range&
   if (value == nullptr) {
     if (pair.exists()) pair.missing(key, rule, example);
   } else if (value->kind == ConfigValue::Kind::table) {
-    read_bounds(pair.section(key), *value, range, example, coefficient);
+    constexpr double kMax = 100;
+    read_bounds(pair.section(key), *value,
+                {.bounds = range, .mean = from_to(0, kMax), .widths = above(0, kMax)}, example,
+                true, coefficient);
   } else {
     coefficient.value = pair.number(key, range, example);
   }

@@ -17,6 +17,7 @@
 #include "dem/study/read_contact.h"
 #include "dem/study/read_experiments.h"
 #include "dem/study/read_particle.h"
+#include "dem/study/read_shared.h"
 
 namespace repose::dem {
 namespace {
@@ -39,12 +40,16 @@ Section needed_section(Section& study, const std::string& key, const std::string
   return study.section(key);
 }
 
+}  // namespace
+
 void read_heading(Section& section, StudyHeading& heading) {
   heading.title = section.text("title", "title = \"Soybeans on acrylic\"").value_or("");
   heading.author = section.text("author", "author = \"A. Smith\"").value_or("");
   heading.date = section.text("date", "date = \"23 November 2026\"").value_or("");
   heading.note = section.text("note", "note = \"harvest of 2024, 12 % moisture\"").value_or("");
 }
+
+namespace {
 
 /// Every value of the study by its name, as in "particle.density_kg_m3".
 void add_names(const ConfigValue& table, const std::string& path, std::vector<std::string>& names) {
@@ -132,11 +137,32 @@ void read_sections(const ConfigValue& config, Section root, const NamedFiles& fi
   root.reject_unknown_keys();
 }
 
+/// A study of a table of runs has nothing to be simulated.
+void refuse_table(const ConfigValue& config, StudyErrors& errors) {
+  const ConfigValue* parameters = config.find(kTableSection);
+  if (parameters == nullptr) return;
+  if (config.find("particle") != nullptr) {
+    errors.add(parameters->place, "[parameter] stands beside [particle]",
+               "a study is either simulated here, with [particle], or fitted to a table of runs "
+               "of another program, with [parameter]",
+               "take one of them out; in a study with [particle], coefficients get their bounds in "
+               "[contact]");
+  } else {
+    errors.add(parameters->place,
+               "[parameter] makes this a study of a table of runs: there is nothing to simulate",
+               "its runs are made with another program",
+               "give the table, repose calibrate STUDY.toml --runs runs.csv; or write [particle], "
+               "[wall], [contact] and [experiment] in place of [parameter] and [measured]");
+  }
+  errors.throw_if_any();
+}
+
 Study read_text(const fs::path& file, const std::string& text,
                 const std::vector<std::string>& settings, const NamedFiles& files) {
   StudyErrors errors;
   const ConfigValue config = parse_config(file.string(), text, settings, errors);
   errors.throw_if_any();  // with a file half read, every other key would be missing
+  refuse_table(config, errors);
   Study study;
   study.file = file;
   read_sections(config, {&config, {}, {.file = file.string()}, errors}, files, study);

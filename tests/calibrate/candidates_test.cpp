@@ -26,7 +26,7 @@ JointResult joint_with(double chance, double bench_sd, double simulated_sd) {
   heap.systematic_uncertainty = 0;
   heap.sd_assumed = false;
   heap.predicted_sd = simulated_sd;
-  heap.verification.runs = 3;
+  heap.verification->runs = 3;
   joint.surrogates.front().runs = kHeapRuns;
   joint.agreement.chance = chance;
   return joint;
@@ -68,7 +68,7 @@ TEST(Candidates, AScatterThatWasOnlyAssumedSpeaksForNone) {
 
 TEST(Candidates, OneWithoutAReadingIsNotPreferred) {
   JointResult joint = joint_with(1, 1, 1);
-  joint.observables.front().verification.runs = 0;
+  joint.observables.front().verification->runs = 0;
   const Candidate silent = candidate_of("silent", joint);
   EXPECT_TRUE(std::isinf(candidate_score(silent)));
   EXPECT_EQ(preferred({silent, candidate("other", 30, 0)}), 1U);

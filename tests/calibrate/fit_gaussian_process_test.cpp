@@ -71,5 +71,44 @@ TEST(GaussianProcess, LeavingOneOutIsTheSameAsNotHavingIt) {
   EXPECT_NEAR(last.sd * last.sd, without2 + noise2, 1e-6 * last.sd);
 }
 
+/// By sufficiency: of normal noise, mean, number and sum of squares tell all that the runs do.
+TEST(GaussianProcess, LearnsFromMeansAndTheirScatterWhatTheRunsThemselvesTell) {
+  constexpr std::size_t kPlaces = 30;
+  constexpr int kRepeats = 3;
+  constexpr double kNoise = .2;
+  Random random(8);
+  Data runs, means;
+  MeansOfRuns told;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const Point place = sequence_point(i, 2);
+    double mean = 0, squares = 0;
+    std::vector<double> here;
+    for (int k = 0; k < kRepeats; ++k) here.push_back(curve(place) + kNoise * random.normal());
+    for (const double value : here) mean += value / kRepeats;
+    for (const double value : here) squares += (value - mean) * (value - mean);
+    for (const double value : here) {
+      runs.places.push_back(place);
+      runs.values.push_back(value);
+    }
+    means.places.push_back(place);
+    means.values.push_back(mean);
+    told.counts.push_back(kRepeats);
+    told.squares += squares;
+    told.df += kRepeats - 1;
+  }
+  const GaussianProcess of_runs(runs.places, runs.values, true, {}, 2);
+  const GaussianProcess of_means(means.places, means.values, true, {}, 2, told);
+  EXPECT_NEAR(of_means.noise_sd(), of_runs.noise_sd(), .01 * kNoise);
+  for (const Point& here : {Point{.5, .5}, Point{.13, .88}, Point{.97, .02}}) {
+    const Expectation one = of_means.at(here, false), other = of_runs.at(here, false);
+    EXPECT_NEAR(one.mean, other.mean, .05 * kNoise);
+    EXPECT_NEAR(std::sqrt(one.variance), std::sqrt(other.variance),
+                .05 * std::sqrt(other.variance));
+  }
+  // Taken for single runs, they would hide most of the noise.
+  const GaussianProcess of_singles(means.places, means.values, true, {}, 2);
+  EXPECT_LT(of_singles.noise_sd(), .8 * kNoise);
+}
+
 }  // namespace
 }  // namespace repose::calibrate

@@ -48,9 +48,9 @@ TEST(Narrowing, GoesFromNoneToThatOfAnExactSimulation) {
   const auto late = narrowing_of(solution, 1e9 * kHour_s);
   ASSERT_THAT(soon, SizeIs(fake::kTruth.size()));
   for (std::size_t j = 0; j < soon.size(); ++j) {
-    EXPECT_NEAR(late[j].hour, 1, 1e-6) << "an hour after ten thousand years";
-    EXPECT_LE(soon[j].exact, soon[j].hour);
-    EXPECT_LT(soon[j].hour, 1);
+    EXPECT_NEAR(*late[j].hour, 1, 1e-6) << "an hour after ten thousand years";
+    EXPECT_LE(soon[j].exact, *soon[j].hour);
+    EXPECT_LT(*soon[j].hour, 1);
     EXPECT_LT(soon[j].readings, 1);
     EXPECT_GE(soon[j].exact, 0);
   }
@@ -89,7 +89,7 @@ TEST(Narrowing, ForeseesWhatTwiceTheRunsDo) {
   const std::vector<double> before = widths(problem, runs);
   const std::vector<double> after = widths(problem, twice(runs));
   for (std::size_t j = 0; j < 3; ++j) {
-    EXPECT_NEAR(after[j] / before[j], foreseen[j].hour, .2) << j;
+    EXPECT_NEAR(after[j] / before[j], *foreseen[j].hour, .2) << j;
   }
 }
 

@@ -214,7 +214,7 @@ TEST_F(StudyReport, ShowsNothingThatNoBenchCanRead) {
   joint.responses[0].simulated = {-36, 80};
   joint.surfaces[0].simulated = {{-36, 80}, {2, 81}};
   joint.runs[0].readings["value"] = -36;
-  joint.observables[0].verification.difference = {1, 2};
+  joint.observables[0].verification->difference = {1, 2};
   for (const CsvFile& file : study_report(result_).tables) {
     if (file.name.starts_with("terms") || file.name.starts_with("corr")) continue;
     EXPECT_THAT(file.text, Not(HasSubstr("-36"))) << file.name;
@@ -231,7 +231,7 @@ TEST_F(StudyReport, SaysPhotographOnlyWhereThereAreSome) {
 }
 
 TEST_F(StudyReport, WithoutHeapsSaysNothingOfThem) {
-  result_.provenance.stiffness_factor = {{"drop", 1}};
+  result_.provenance.model->stiffness_factor = {{"drop", 1}};
   EXPECT_THAT(page_of(study_report(result_)),
               AllOf(Not(HasSubstr("id=\"heaps\"")), Not(HasSubstr("angle of repose")),
                     Not(HasSubstr("heap.vtp")), Not(HasSubstr("A heap"))));

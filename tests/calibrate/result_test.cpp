@@ -45,12 +45,12 @@ TEST(Result, OfBothMethodsComesBackFromItsText) {
 
 TEST(Result, NumbersThatDoNotExistAreNull) {
   StudyResult result = test::joint_result();
-  joint_in(result).observables[0].verification.simulated = std::nan("");
+  joint_in(result).observables[0].verification->simulated = std::nan("");
   joint_in(result).parameters[0].interval.high = std::numeric_limits<double>::infinity();
   const std::string text = to_json(result);
   EXPECT_THAT(text, AllOf(HasSubstr("\"simulated\": null"), HasSubstr("0.35,\n        null")));
   StudyResult read = result_from_json(text, kName);
-  EXPECT_TRUE(std::isnan(joint_in(read).observables[0].verification.simulated));
+  EXPECT_TRUE(std::isnan(joint_in(read).observables[0].verification->simulated));
   EXPECT_TRUE(std::isnan(joint_in(read).parameters[0].interval.high));
   EXPECT_EQ(to_json(read), text);
 }
@@ -121,11 +121,11 @@ TEST(Result, SaysWhyTheNumberOfSpheresWasNotChecked) {
 
 TEST(Result, WithoutADampingItWasPerContact) {
   StudyResult result = test::joint_result();
-  result.provenance.damping = "shared";
-  result.provenance.damping_definition = "together";
+  result.provenance.model->damping = "shared";
+  result.provenance.model->damping_definition = "together";
   EXPECT_TRUE(result_from_json(to_json(result), kName) == result);
   const std::string older = with(to_json(result), "\"damping\": \"shared\"", "\"x\": 1");
-  const Provenance read = result_from_json(older, kName).provenance;
+  const ModelFacts read = result_from_json(older, kName).provenance.model.value();
   EXPECT_EQ(read.damping, "per_contact");
   EXPECT_THAT(read.damping_definition, HasSubstr("number of spheres"));
 }
@@ -257,9 +257,9 @@ TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
   EXPECT_EQ(joint.parameters[0].value, made.outcome.fit.parameters[0].value);
   EXPECT_EQ(joint.parameters[0].bounds.high, .8);
   EXPECT_EQ(joint.parameters[0].known_before->mean, .4);
-  EXPECT_EQ(joint.observables[0].verification.runs, 1) << "there is no chance in it";
+  EXPECT_EQ(joint.observables[0].verification->runs, 1) << "there is no chance in it";
   EXPECT_EQ(joint.verdict, AgreementVerdict::agrees);
-  EXPECT_EQ(joint.observables[0].verification.tolerance, 2) << "an angle";
+  EXPECT_EQ(joint.observables[0].verification->tolerance, 2) << "an angle";
   EXPECT_EQ(joint.agreement.rounds, 1);
   EXPECT_EQ(joint.agreement.values[0], made.outcome.fit.parameters[0].value);
   EXPECT_THAT(joint.agreement.text, HasSubstr("reproduced, not tested"));
@@ -273,7 +273,7 @@ TEST(Result, OfAFinishedStudyHoldsWhatWasFoundAndWhatItBelongsTo) {
   EXPECT_THAT(joint.regressions[0].regression->runs, IsEmpty());
   EXPECT_EQ(result.provenance.study.file, "plate.toml");
   EXPECT_EQ(result.provenance.study.budget, "quick");
-  EXPECT_EQ(result.provenance.shortest_timestep_s, (NamedValues{{"tilt", 1e-5}}));
+  EXPECT_EQ(result.provenance.model->shortest_timestep_s, (NamedValues{{"tilt", 1e-5}}));
   EXPECT_TRUE(result_from_json(to_json(result), kName) == result);
 }
 

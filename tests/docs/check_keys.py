@@ -12,7 +12,7 @@ import workplace
 
 # Objects whose keys are names of factors, coefficients, observables or experiments.
 OPEN = {"effects", "interval_widths", "determined", "levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated", "checked_at",
-        "stiffness_factor", "shortest_timestep_s", "definitions_deg", "simulated_deg"}
+        "stiffness_factor", "shortest_timestep_s", "definitions_deg", "simulated_deg", "repeat_sd"}
 # Commands by the heading in json.md under which their output is described. (repose verify is left out:
 # it takes long.)
 OUTPUTS = {
@@ -33,7 +33,9 @@ OUTPUTS = {
     "regress": ["regress runs.csv --response angle_deg --target 23 --json -"],
     "export": ["export hazelnut --to edem --json -"],
     "plan": ["plan drops.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
-    "calibrate": ["calibrate study.toml --out hazelnut --json -"],
+    "calibrate": ["calibrate study.toml --out hazelnut --json -",
+                  "calibrate grain.toml --runs grain_runs.csv --json -"],
+    "predict": ["predict grain.toml --runs grain_runs.csv --at grain_points.csv --json -"],
 }
 SECTIONS = ["study", "particle", "wall", "wall.tube", "contact", "contact.particle_wall", "contact.particle_wall.restitution",
             "experiment", "experiment.heap.measured", "experiment.drop.measured", "simulation", "uncertainty"]

@@ -9,6 +9,8 @@ import struct
 import subprocess
 import zlib
 
+import documents
+
 PHOTOGRAPHS = {"heap_01.jpg": "heap_01.jpg", "heap_02.jpg": "heap_02.jpg",
                "photo.jpg": "heap_02.jpg", "my_heap.jpg": "heap_03.jpg"}
 
@@ -255,6 +257,11 @@ def prepare(folder, root, repose):
     (folder / "drops.csv").write_text(DROPS, encoding="utf-8")
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
     (folder / "two_days.csv").write_text(TWO_DAYS, encoding="utf-8")
+    engines = documents.Document(root / "docs/engines.md", root)
+    for language, names in (("toml", ["grain.toml"]), ("csv", ["grain_runs.csv", "grain_points.csv"])):
+        blocks = [block for block in engines.blocks if block.language == language]
+        for name, block in zip(names, blocks):
+            (folder / name).write_text("\n".join([*(line.text for line in block.lines), ""]), encoding="utf-8")
     for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):
         subprocess.run([repose, "calibrate", name, "--out", out], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)

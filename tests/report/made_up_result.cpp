@@ -82,26 +82,26 @@ ResultObservable observable(const Made& made) {
            .predicted_sd = .1 * measured,
            .difference_sigma = 0,
            .reachable = {.1 * measured, 3 * measured}},
-          {.observable = made.name,
-           .measured = measured,
-           .measured_uncertainty = .03 * measured,
-           .simulated = measured,
-           .simulated_uncertainty = .1,
-           .difference_sigma = .2,
-           .chance = .8,
-           .tolerance = .05 * measured,
-           .difference = {-1, 1},
-           .detectable = .1 * measured,
-           .runs_to_decide = {},
-           .verdict = AgreementVerdict::agrees,
-           .runs = 3,
-           .failed_runs = 0},
-          {.observable = made.name,
-           .predicted = measured,
-           .uncertainty = .1,
-           .simulated = measured,
-           .chance = .7,
-           .misses = false}};
+          Agreement{.observable = made.name,
+                    .measured = measured,
+                    .measured_uncertainty = .03 * measured,
+                    .simulated = measured,
+                    .simulated_uncertainty = .1,
+                    .difference_sigma = .2,
+                    .chance = .8,
+                    .tolerance = .05 * measured,
+                    .difference = {-1, 1},
+                    .detectable = .1 * measured,
+                    .runs_to_decide = {},
+                    .verdict = AgreementVerdict::agrees,
+                    .runs = 3,
+                    .failed_runs = 0},
+          SurrogateCheck{.observable = made.name,
+                         .predicted = measured,
+                         .uncertainty = .1,
+                         .simulated = measured,
+                         .chance = .7,
+                         .misses = false}};
 }
 
 void add_responses(std::size_t observable, JointResult& joint) {
@@ -203,20 +203,21 @@ JointResult joint() {
 
 StudyResult result() {
   StudyResult result;
-  result.provenance = {.study = {.program = "repose 0",
-                                 .file = kHostile,
-                                 .hash = "abc",
-                                 .settings = {kHostile},
-                                 .method = "joint",
-                                 .budget = "quick",
-                                 .budget_description = kHostile},
-                       .first_seed = 1,
-                       .contact_model = "Hertz-Mindlin (no slip)",
-                       .rolling_model = "constant_torque",
-                       .rolling_definition = "mu_r F_n times x",
-                       .clump = {kLong, 11, .01, .001},
-                       .stiffness_factor = {{"drop", 1}, {"heap", .01}},
-                       .shortest_timestep_s = {{"drop", 1e-6}, {"heap", 1e-5}}};
+  result.provenance = {
+      .study = {.program = "repose 0",
+                .file = kHostile,
+                .hash = "abc",
+                .settings = {kHostile},
+                .method = "joint",
+                .budget = "quick",
+                .budget_description = kHostile},
+      .model = ModelFacts{.first_seed = 1,
+                          .contact_model = "Hertz-Mindlin (no slip)",
+                          .rolling_model = "constant_torque",
+                          .rolling_definition = "mu_r F_n times x",
+                          .clump = {kLong, 11, .01, .001},
+                          .stiffness_factor = {{"drop", 1}, {"heap", .01}},
+                          .shortest_timestep_s = {{"drop", 1e-6}, {"heap", 1e-5}}}};
   result.found = joint();
   return result;
 }

@@ -71,13 +71,25 @@ grains = 220
 measured = { mean = 25, sd = 1, n = 5 }
 """,
 }
+# Of another program, as a table: y = 2 x + z, two runs a row.
+TABLE = """
+[parameter]
+x = { min = 0, max = 1 }
+z = { min = 0, max = 1, bounds = "known" }
+[measured]
+y = { mean = 1.5, sd = 0.2, n = 4 }
+w = { mean = 1, sd = 0.1, n = 1, held_out = true }
+"""
+ROWS = "x,z,y,y_sd,w,n\n" + "".join(
+    f"{x},{z},{2 * x + z + .01 * ((3 * x + 7 * z) % 1)},.02,{x * z + x},2\n"
+    for x in (.1, .35, .6, .85) for z in (.05, .3, .7, .95)) + "1,1,NaN,,,1\n"
 # Keys that a result need not have.
 OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions", "candidates", "held_out",
             "stiffness_checks", "stiffer_coefficients", "shape_check", "narrowing", "heap_definition", "assumed",
             "systematic_uncertainty", "assumed_inputs", "with_assumed", "inputs_taken_as_exact",
             "degrees_of_freedom", "model_error_scale", "model_uncertainty", "model_sd",
             "assumed_scatter", "bench_correlation", "bounds_are", "useful_half_width", "systematic",
-            "tolerance_from", "readings_to_decide", "possible"}
+            "tolerance_from", "readings_to_decide", "possible", "hour", "checked_at", "repeats", "repeat_sd"}
 
 
 def undescribed(schema, place="schema"):
@@ -138,9 +150,19 @@ def result_of(repose, method):
         return json.loads((pathlib.Path(folder) / "result.json").read_text(encoding="utf-8"))
 
 
-def check(schema, repose, method):
+def result_of_table(repose):
+    """What repose calibrate --runs writes."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "table.toml").write_text(TABLE, encoding="utf-8")
+        (folder / "rows.csv").write_text(ROWS, encoding="utf-8")
+        subprocess.run([repose, "calibrate", "table.toml", "--runs", "rows.csv", "--out", "out"], cwd=folder,
+                       check=True, stdout=subprocess.DEVNULL)
+        return json.loads((folder / "out/result.json").read_text(encoding="utf-8"))
+
+
+def check(schema, result, method):
     """The result of one method against its branch of the schema, whose errors are named."""
-    result = result_of(repose, method)
     validator = jsonschema.Draft202012Validator(
         {"$ref": f"#/$defs/{method}", "$defs": schema["$defs"]}
     )
@@ -163,8 +185,9 @@ def main(repose, schema_file):
     assert not open_objects(schema), open_objects(schema)
     assert not unrequired(schema), unrequired(schema)
     for method in STUDIES:
-        check(schema, repose, method)
-    print("results of both methods are as the schema says")
+        check(schema, result_of(repose, method), method)
+    check(schema, result_of_table(repose), "joint")
+    print("results of both methods and of a table are as the schema says")
 
 
 main(*sys.argv[1:])

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "calibrate/runs/table_runs.h"
+#include "calibrate/runs/table_study.h"
+
+namespace repose::calibrate {
+
+/// A run worth making.
+struct NextRun {
+  std::vector<double> values;  ///< of the parameters
+  std::string reason;          ///< a sentence without its full stop
+};
+
+struct NextRuns {
+  std::vector<NextRun> runs;
+  /// Why there are fewer than asked for, and what would narrow the answer in their place; else
+  /// empty.
+  std::vector<std::string> settled;
+};
+
+/// The next runs of a study of a table, `count` of them at most. As long as too few places have
+/// readings for a fit, they fill the bounds evenly, some of them twice where it is not known yet
+/// what chance does; then they are where they narrow the answer most (rounds.h), one in eight
+/// elsewhere, until the surfaces through them would be known better than the bench's means. Proved
+/// by NextRunsTest.* in tests/calibrate.
+/// @throws base::InputError  the problem is not sound.
+NextRuns next_runs(const TableStudy& study, const TableRuns& table, std::size_t count);
+
+/// A table of them for a user to fill in: the columns of the first table that was read, or the
+/// parameters and readings where there is none, and a column "reason".
+std::string next_runs_csv(const TableStudy& study, const TableRuns& table,
+                          const std::vector<NextRun>& runs);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,245 @@
+#include "calibrate/runs/table_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/atomic_file.h"
+#include "base/fingerprint.h"
+#include "base/input_error.h"
+#include "base/version.h"
+#include "calibrate/fit/agreement.h"
+#include "calibrate/fit/fit_watch.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/fit/prediction.h"
+#include "calibrate/fit/solution.h"
+#include "calibrate/fit/surrogate.h"
+#include "calibrate/fit/warnings.h"
+#include "calibrate/result/result_of.h"
+#include "calibrate/run/run_study.h"
+#include "calibrate/study/study_record.h"
+
+namespace repose::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+
+StudyIdentity identity_of(const TableStudy& study, const TableRuns& table) {
+  std::vector<std::string> parts = {study.text};
+  parts.insert(parts.end(), study.settings.begin(), study.settings.end());
+  for (const fs::path& sheet : study.sheets) parts.push_back(base::read_whole_file(sheet));
+  parts.insert(parts.end(), table.texts.begin(), table.texts.end());
+  return {.program = base::kProgram,
+          .file = study.file.filename().string(),
+          .hash = base::fingerprint(parts),
+          .settings = study.settings,
+          .method = "joint",
+          .budget = {},
+          .budget_description = {}};
+}
+
+/// What the surface through the runs of a held-out reading expects where the fit finds coefficients
+/// plausible.
+Prediction predicted(const Problem& problem, const Observable& observable, const Solution& solution,
+                     const std::vector<Run>& runs) {
+  const Experiment& experiment = experiment_named(problem, observable.experiment);
+  const TrainingSet training_set = training_set_of(problem, experiment, observable.reading, runs);
+  Surrogate surrogate(training_set, {}, true);
+  surrogate.inflate_near(solution.best.point);
+  const std::vector<Point>& sets = solution.sets.points;
+  const auto count = static_cast<double>(sets.size());
+  double mean = 0, squares = 0, surface2 = 0;
+  for (const Point& point : sets) {
+    const double reading = surrogate.simulated(point);
+    mean += reading / count;
+    squares += reading * reading / count;
+    surface2 += std::pow(surrogate.uncertainty(point), 2) / count;
+  }
+  const double by_coefficients = std::max(0., squares - mean * mean);
+  const std::size_t dimensions = problem.parameters.size();
+  const Interval possible = {std::clamp(extreme_of(surrogate, dimensions, false).reading,
+                                        observable.least, observable.most),
+                             std::clamp(extreme_of(surrogate, dimensions, true).reading,
+                                        observable.least, observable.most)};
+  const Margin margin = margin_of(observable, possible);
+  Prediction prediction{
+      .name = observable.name,
+      .unit = observable.unit,
+      .measured = observable.mean,
+      .measured_uncertainty = with_systematic(observable, standard_uncertainty(observable)),
+      .predicted = mean,
+      .uncertainty = 0,
+      .interval = {},
+      .coefficients_sd = std::sqrt(by_coefficients),
+      .run_sd = surrogate.warp().scatter(surrogate.at(solution.best.point, false).mean),
+      .model_sd = solution.misfit.model_scale() * observable.model_sd,
+      .difference_sigma = 0,
+      .chance = 0,
+      .tolerance = margin.value,
+      .tolerance_from = margin.source,
+      .possible = possible,
+      .sets = static_cast<int>(sets.size()),
+      .failed_runs = attempts_of(problem, experiment, runs).failures()};
+  judge(problem, observable,
+        {mean, std::sqrt(by_coefficients + surface2), std::numeric_limits<double>::infinity()},
+        prediction);
+  return prediction;
+}
+
+/// "aor 27.1 ± 0.4 deg for the measured 27 ± 1.5".
+std::string surfaces_text(const JointFit& fit) {
+  std::string text;
+  for (const FittedObservable& one : fit.observables) {
+    text +=
+        fmt::format("{}{} {:.4g} ± {:.2g}{} for the measured {:.4g} ± {:.2g}",
+                    text.empty() ? "" : ", ", one.name, one.simulated, one.simulated_uncertainty,
+                    one.unit.empty() ? "" : " " + one.unit, one.measured, one.measured_uncertainty);
+  }
+  return text;
+}
+
+std::string unchecked_text(const JointFit& fit) {
+  return fmt::format(
+      "the fit rests on surfaces through the table's runs, which give {} (standard uncertainties) "
+      "at the fitted parameters. To check them, run them with your program, add the row to the "
+      "table, and calibrate again",
+      surfaces_text(fit));
+}
+
+/// A parameter that is the same in all rows.
+void note_constant(const TableStudy& study, const TableRuns& table,
+                   std::vector<std::string>& notes) {
+  for (std::size_t j = 0; j < study.parameters.size(); ++j) {
+    const auto is_first = [&](const std::vector<double>& place) {
+      return place[j] == table.places.front()[j];
+    };
+    if (table.places.empty() || !std::ranges::all_of(table.places, is_first)) continue;
+    notes.push_back(fmt::format(
+        "{} is {:g} in all rows: they say nothing of it. Fix: add rows with other values, or leave "
+        "it out of [parameter].",
+        study.parameters[j].name, table.places.front()[j]));
+  }
+}
+
+}  // namespace
+
+Problem problem_of(const TableStudy& study, const TableRuns& table) {
+  Problem problem;
+  problem.parameters = study.parameters;
+  problem.observables = study.measured;
+  problem.held_out = study.held_out;
+  std::vector<std::size_t> all;
+  for (std::size_t j = 0; j < study.parameters.size(); ++j) all.push_back(j);
+  for (const std::string& reading : readings_of(study)) {
+    problem.experiments.push_back({.name = reading, .parameters = all});
+  }
+  problem.offers = table.others;
+  // Nothing is simulated: there is no budget.
+  problem.settings.budget_s = 1e9;
+  problem.settings.max_jobs = 1'000'000;
+  return problem;
+}
+
+std::size_t fewest_places(const Problem& problem) { return 2 * problem.parameters.size() + 2; }
+
+std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns& table) {
+  std::vector<base::Fault> faults;
+  for (const Experiment& experiment : problem.experiments) {
+    std::set<std::vector<double>> places;
+    for (const Run& run : table.runs) {
+      if (run.job.experiment == experiment.name && run.failure.empty()) {
+        places.insert(run.job.values);
+      }
+    }
+    const std::size_t fewest = fewest_places(problem);
+    if (places.size() >= fewest) continue;
+    faults.push_back(
+        {.where = fmt::format("{}", fmt::join(table.files, ", ")),
+         .subject = experiment.name,
+         .value = fmt::format("has readings at {} different places, of {} rows", places.size(),
+                              table.rows),
+         .rule = fmt::format("{} at least for {} parameters", fewest, problem.parameters.size()),
+         .fix = "make more runs; repose ask STUDY.toml --runs runs.csv says where."});
+  }
+  return faults;
+}
+
+StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
+  const Problem problem = problem_of(study, table);
+  base::Faults faults;
+  faults.add_all(too_few_places(problem, table));
+  faults.throw_if_any();
+  require_sound(problem);
+  const std::vector<Run> runs = in_order(problem, table.runs);
+  const Solution solution = solve(problem, runs);
+  JointFit fit = fit_of(problem, runs, solution, {});
+  // How long a run takes, the table does not say.
+  for (FittedParameter& parameter : fit.parameters) {
+    if (parameter.narrowing) parameter.narrowing->hour.reset();
+  }
+  JointResult joint = fitted_result(problem, fit, runs);
+  joint.agreement.text = unchecked_text(fit);
+  for (const Observable& observable : problem.held_out) {
+    joint.held_out.push_back(predicted(problem, observable, solution, runs));
+  }
+  joint.warnings = study.notes;
+  joint.warnings.insert(joint.warnings.end(), table.notes.begin(), table.notes.end());
+  note_constant(study, table, joint.warnings);
+  joint.warnings.insert(joint.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  return {.provenance = {.study = identity_of(study, table),
+                         .model = {},
+                         .table = TableFacts{.files = table.files,
+                                             .rows = table.rows,
+                                             .failed = table.failed,
+                                             .without_reading = table.without_reading,
+                                             .left_out = table.left_out}},
+          .found = std::move(joint)};
+}
+
+std::optional<StudyResult> calibrate_table(const TableRequest& request,
+                                           const std::function<void(const std::string&)>& note,
+                                           const std::atomic<bool>& is_interrupted) {
+  base::Faults faults;
+  const fs::path folder = request.folder.empty() ? default_folder(request.study) : request.folder;
+  if (auto fault = fault_of_folder(folder, request.study)) faults.add(std::move(*fault));
+  std::optional<TableStudy> study;
+  std::optional<TableRuns> table;
+  try {
+    study = read_table_study(request.study, request.settings);
+    table = read_table_runs(*study, request.runs);
+  } catch (const base::InputError& error) {
+    faults.add_all(error.faults());
+  }
+  faults.throw_if_any();
+  std::optional<StudyResult> result;
+  try {
+    const FitWatch watch(is_interrupted);
+    result = fit_table(*study, *table);
+  } catch (const FitInterrupted&) {
+    return std::nullopt;
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    base::refuse(folder, fmt::format("cannot be made ({})", error.message()),
+                 "choose another folder.");
+  }
+  const StudyIdentity& identity = result->provenance.study;
+  set_aside_old_result(folder, identity, note);
+  write_study_files(folder, {.study = identity, .measurement = {}, .fingerprints = {}},
+                    {{kStudyCopy, study->text}});
+  base::write_whole_file(folder / kResultFile, to_json(*result));
+  if (note) {
+    for (const std::string& text : std::get<JointResult>(result->found).warnings) note(text);
+  }
+  return result;
+}
+
+}  // namespace repose::calibrate

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/joint_fit.h"
+#include "calibrate/fit/problem.h"
+#include "calibrate/result/result.h"
+#include "calibrate/runs/table_runs.h"
+#include "calibrate/runs/table_study.h"
+
+/// The joint fit of a study to a table of runs: no simulation is made, so nothing is checked in
+/// any.
+namespace repose::calibrate {
+
+/// Each reading is an experiment of its own, which depends on all parameters.
+Problem problem_of(const TableStudy& study, const TableRuns& table);
+
+/// How many different places with a reading a fit needs, of each.
+std::size_t fewest_places(const Problem& problem);
+
+/// Of those that have fewer: a fault each.
+std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns& table);
+
+/// Fits, and predicts what is held out from surfaces through the table's runs.
+/// @throws base::InputError  too few rows have a reading.
+StudyResult fit_table(const TableStudy& study, const TableRuns& table);
+
+/// What is calibrated: the options of `repose calibrate --runs`.
+struct TableRequest {
+  std::filesystem::path study;
+  std::vector<std::string> settings = {};
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path folder = {};  ///< empty: default_folder() of the study
+};
+
+/// Reads study and tables, fits, and leaves a copy of the study and result.json in the folder: what
+/// `repose report` reads.
+/// @param note  hears what was made of study and rows, a sentence each; null: nobody
+/// @return  none when it was interrupted
+/// @throws base::InputError  every error of the study and the tables; a folder with somebody's
+///   files, or that cannot be written.
+std::optional<StudyResult> calibrate_table(const TableRequest& request,
+                                           const std::function<void(const std::string&)>& note,
+                                           const std::atomic<bool>& is_interrupted);
+
+}  // namespace repose::calibrate

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/problem.h"
+#include "dem/study/study.h"
+
+/// Studies of somebody's own runs, made with whatever program: parameters of any name, numbers that
+/// a bench measured, and a table that says what the runs gave.
+namespace repose::calibrate {
+
+/// [parameter] and [measured] of a study.
+struct TableStudy {
+  std::filesystem::path file;
+  dem::StudyHeading heading;
+  std::vector<Parameter> parameters;          ///< in the order of the file
+  std::vector<Observable> measured;           ///< likewise; each is its own experiment's "value"
+  std::vector<Observable> held_out;           ///< predicted, not fitted
+  std::vector<std::filesystem::path> sheets;  ///< of readings, which the study names
+  std::vector<std::string> notes;             ///< what was taken for granted
+  std::string text;                           ///< of the file
+  std::vector<std::string> settings;          ///< laid over it
+};
+
+/// Whether a study file has parameters of its own in place of a particle's coefficients. False
+/// where it cannot be read.
+bool is_table_study(const std::filesystem::path& file);
+
+/// @param settings  as of dem::read_study
+/// @throws base::InputError  every error of the file: line, column, value, rule, fix.
+TableStudy read_table_study(const std::filesystem::path& file,
+                            const std::vector<std::string>& settings = {});
+
+/// The heading alone, of a copy beside which its sheets are missing.
+/// @throws base::InputError  the file cannot be read.
+dem::StudyHeading heading_of_table_study(const std::filesystem::path& file);
+
+/// All measured names: fitted, then held out.
+std::vector<std::string> readings_of(const TableStudy& study);
+
+}  // namespace repose::calibrate

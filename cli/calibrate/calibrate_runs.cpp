@@ -1,0 +1,66 @@
+#include "cli/calibrate/calibrate_runs.h"
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "calibrate/result/result.h"
+#include "calibrate/runs/table_fit.h"
+#include "calibrate/study/study_record.h"
+#include "cli/calibrate/calibrate_table.h"
+#include "cli/common/terminal.h"
+
+namespace repose::cli {
+namespace {
+
+/// Options of simulations, of which none is made.
+void refuse_simulations(const CalibrateArguments& arguments, std::vector<std::string>& errors) {
+  const CalibrateArguments usual;
+  const auto refuse = [&](bool is_given, const char* option) {
+    if (!is_given) return;
+    errors.push_back(fmt::format(
+        "{}: is of simulations, and with --runs none is made. Fix: leave one of them out.",
+        option));
+  };
+  refuse(arguments.budget != usual.budget, "--budget");
+  refuse(arguments.method != usual.method, "--method");
+  refuse(!arguments.rolling_models.empty(), "--rolling-models");
+  refuse(!arguments.jobs.empty(), "--jobs");
+  refuse(arguments.is_dry_run, "--dry-run");
+}
+
+}  // namespace
+
+ExitCode run_calibrate_runs(const CalibrateArguments& arguments) {
+  calibrate::TableRequest request{.study = arguments.study,
+                                  .settings = arguments.settings,
+                                  .runs = {arguments.runs.begin(), arguments.runs.end()},
+                                  .folder = arguments.out_folder};
+  if (request.folder.empty()) request.folder = calibrate::default_folder(request.study);
+  std::vector<std::string> errors;
+  refuse_simulations(arguments, errors);
+  std::vector<std::filesystem::path> read = request.runs;
+  read.push_back(request.study);
+  for (const char* name : {calibrate::kStudyCopy, calibrate::kNotesFile, calibrate::kResultFile}) {
+    read.push_back(request.folder / name);
+  }
+  check_output_places({json_place(arguments.json_file, "\"hash\"")}, read, errors);
+  print_lines(errors);
+  if (!errors.empty()) return ExitCode::bad_input;
+  const auto result = calibrate::calibrate_table(request, print_line, watch_for_interrupt());
+  if (!result) {
+    print_line("interrupted; no result was written.");
+    return ExitCode::interrupted;
+  }
+  Outputs outputs;
+  outputs.add(arguments.json_file, to_json(*result));
+  outputs.show(joint_table(std::get<calibrate::JointResult>(result->found), result->provenance,
+                           columns_of(stdout)));
+  outputs.write();
+  return ExitCode::done;
+}
+
+}  // namespace repose::cli

@@ -1,0 +1,122 @@
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "calibrate/runs/next_runs.h"
+#include "calibrate/runs/table_runs.h"
+#include "calibrate/runs/table_study.h"
+#include "cli/common/option_value.h"
+#include "cli/common/output.h"
+#include "cli/common/table.h"
+#include "cli/common/terminal.h"
+#include "cli/runs/runs_commands.h"
+
+namespace repose::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `repose ask`, as typed.
+struct AskArguments {
+  std::string study;
+  std::vector<std::string> runs;
+  std::vector<std::string> settings;
+  std::string count = "12";
+  std::string out_file;
+};
+
+std::string table_of(const calibrate::TableStudy& study, const calibrate::NextRuns& next,
+                     const std::string& file, int columns) {
+  Page page(columns);
+  if (!next.runs.empty()) {
+    std::vector<Column> headings;
+    for (const calibrate::Parameter& parameter : study.parameters) {
+      headings.push_back(number_column(parameter.name));
+    }
+    headings.push_back({.heading = "reason"});
+    Table table(std::move(headings));
+    for (const calibrate::NextRun& run : next.runs) {
+      std::vector<std::string> cells;
+      for (const double value : run.values) cells.push_back(fmt::format("{:.6g}", value));
+      cells.push_back(run.reason);
+      table.add_row(std::move(cells));
+    }
+    page.add(table);
+    page.add_gap();
+    page.add(
+        fmt::format("{} runs, in {}: make them, fill in the readings, and append the rows to "
+                    "the table, or give both with --runs.",
+                    next.runs.size(), file));
+  }
+  for (const std::string& line : next.settled) page.add(line);
+  return page.text();
+}
+
+ExitCode run_ask(const AskArguments& arguments) {
+  std::vector<std::string> errors;
+  constexpr int kMost = 1000;
+  const auto count =
+      read_whole_number({"--count", arguments.count, errors}, 1, kMost, "--count 12");
+  std::vector<fs::path> read = {arguments.study};
+  read.insert(read.end(), arguments.runs.begin(), arguments.runs.end());
+  check_output_places({csv_place("--out", arguments.out_file, "reason")}, read, errors);
+  print_lines(errors);
+  if (!errors.empty()) return ExitCode::bad_input;
+  const calibrate::TableStudy study =
+      calibrate::read_table_study(arguments.study, arguments.settings);
+  calibrate::TableRuns table;
+  if (!arguments.runs.empty()) {
+    table = calibrate::read_table_runs(study, {arguments.runs.begin(), arguments.runs.end()},
+                                       calibrate::NoRows::allowed);
+  }
+  const calibrate::NextRuns next =
+      calibrate::next_runs(study, table, static_cast<std::size_t>(count.value_or(1)));
+  print_lines(table.notes);
+  Outputs outputs;
+  if (!next.runs.empty()) {
+    outputs.add(arguments.out_file, calibrate::next_runs_csv(study, table, next.runs));
+  }
+  outputs.show(table_of(study, next, arguments.out_file, columns_of(stdout)));
+  outputs.write();
+  return ExitCode::done;
+}
+
+constexpr const char* kAskNotes = R"(
+Says which runs to make next with whatever program, for a study with [parameter]
+and [measured]: as long as there are too few for a fit, runs that fill the bounds
+evenly; then those that narrow the answer most, each with its reason. It asks for
+fewer, or none, where further runs would not narrow it, and says what would.
+
+NEXT.csv has the columns of the first RUNS.csv, or else those of the study, with
+the parameters filled in, and a column for the reason. It is not written where
+there is nothing to ask for.
+
+Examples:
+  repose ask table.toml --count 12 --out next.csv
+  repose ask table.toml --runs runs.csv --count 6 --out next.csv
+)";
+
+}  // namespace
+
+Command ask_command() {
+  const auto given = std::make_shared<AskArguments>();
+  return {.name = "ask",
+          .summary = "Choose the next runs of another program",
+          .options = {{"study", "STUDY.toml", "Study file", &given->study, true},
+                      {"--runs", "RUNS.csv", "Runs that there are; repeatable", &given->runs},
+                      {"--count", "N", "At most so many (12)", &given->count},
+                      {"--out", "NEXT.csv", "The runs, to be filled in", &given->out_file, true},
+                      {"--set", "KEY=VALUE", "Replace a value of the study; repeatable",
+                       &given->settings}},
+          .notes = kAskNotes,
+          .missing =
+              "a study and a file for the runs are needed. Fix: repose ask STUDY.toml --out "
+              "next.csv.",
+          .run = [given] { return run_ask(*given); }};
+}
+
+}  // namespace repose::cli

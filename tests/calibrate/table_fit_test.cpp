@@ -1,0 +1,324 @@
+// Studies of a table of runs: reading of both, and the fit.
+#include "calibrate/runs/table_fit.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "base/input_error.h"
+#include "calibrate/fit/surrogate.h"
+#include "calibrate/report/study_report.h"
+#include "calibrate/runs/table_runs.h"
+#include "calibrate/runs/table_study.h"
+#include "calibrate/study/study_record.h"
+#include "dem/study/study.h"
+#include "tests/calibrate/made_up_table.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+class TableTest : public ::testing::Test {
+ protected:
+  TableStudy study(const std::string& text) const {
+    return read_table_study(folder_.write("study.toml", text));
+  }
+  TableRuns runs(const TableStudy& of, const std::string& text) const {
+    return read_table_runs(of, {folder_.write("runs.csv", text)});
+  }
+  std::string fault_of_study(const std::string& text) const {
+    try {
+      study(text);
+    } catch (const base::InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+  std::string fault_of_runs(const TableStudy& of, const std::string& text) const {
+    try {
+      runs(of, text);
+    } catch (const base::InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
+  testing::TemporaryFolder folder_;
+};
+
+using TableStudyTest = TableTest;
+using TableRunsTest = TableTest;
+using TableFitTest = TableTest;
+
+/// x and y alone, for tables that are written out.
+constexpr const char* kLineStudy =
+    "[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 3, sd = 1, n = 4 }\n";
+
+TEST_F(TableStudyTest, TakesAnyNamesInTheirOrder) {
+  const TableStudy read = study(
+      "[study]\ntitle = \"Ours\"\n"
+      "[parameter]\n"
+      "surface_energy = { min = 0, max = 2, mean = 1, sd = 0.5, useful_half_width = 0.1 }\n"
+      "\"roll friction\" = { min = -1, max = 1, bounds = \"known\" }\n"
+      "[measured]\n"
+      "torque = { values = [1.0, 1.2, 0.8], tolerance = 0.1, bias_sd = 0.05 }\n"
+      "aor = { mean = 27, sd = 1.5, n = 1, unit = \"deg\", held_out = true }\n");
+  EXPECT_EQ(read.heading.title, "Ours");
+  ASSERT_EQ(read.parameters.size(), 2U);
+  EXPECT_EQ(read.parameters[0].name, "surface_energy");
+  EXPECT_EQ(read.parameters[0].prior->sd, .5);
+  EXPECT_EQ(read.parameters[0].useful_half_width, .1);
+  EXPECT_EQ(read.parameters[1].name, "roll friction");
+  EXPECT_EQ(read.parameters[1].bounds_are, BoundsOrigin::known);
+  ASSERT_EQ(read.measured.size(), 1U);
+  EXPECT_EQ(read.measured[0].n, 3);
+  EXPECT_NEAR(*read.measured[0].sd, .2, 1e-12);
+  EXPECT_EQ(read.measured[0].systematic_sd, .05);
+  ASSERT_EQ(read.held_out.size(), 1U);
+  EXPECT_THAT(readings_of(read), ElementsAre("torque", "aor"));
+}
+
+TEST_F(TableStudyTest, OneReadingIsAsUncertainAsItsSdSays) {
+  const TableStudy read = study(test::made_up_study());
+  EXPECT_EQ(standard_uncertainty(read.measured[0]), 1);
+  EXPECT_TRUE(std::isinf(degrees_of_scatter(read.measured[0])));
+  EXPECT_THAT(errors_of(problem_of(read, {})), IsEmpty());
+}
+
+TEST_F(TableStudyTest, ReadsASheetOfNumbers) {
+  folder_.write("y.csv", std::string("y;who\n2,9;A\n3,1;B\n3,0;A\n"));
+  const TableStudy read =
+      study("[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { readings = \"y.csv\" }\n");
+  EXPECT_EQ(read.measured[0].n, 3);
+  EXPECT_NEAR(read.measured[0].mean, 3, 1e-12);
+}
+
+TEST_F(TableStudyTest, IsNotMixedWithOneThatIsSimulated) {
+  const std::string text = std::string(kLineStudy) + "[particle]\nsize_mm = [5, 5, 5]\n";
+  EXPECT_THAT(fault_of_study(text),
+              AllOf(HasSubstr("study.toml:5:1"), HasSubstr("[particle] stands beside [parameter]"),
+                    HasSubstr("Fix: ")));
+  EXPECT_THAT([&] { dem::read_study(folder_.path() / "study.toml"); },
+              ThrowsMessage<base::InputError>(
+                  AllOf(HasSubstr("[parameter] stands beside [particle]"), HasSubstr("Fix: "))));
+  folder_.write("study.toml", std::string(kLineStudy));
+  EXPECT_THAT([&] { dem::read_study(folder_.path() / "study.toml"); },
+              ThrowsMessage<base::InputError>(HasSubstr("--runs runs.csv")));
+  EXPECT_TRUE(is_table_study(folder_.path() / "study.toml"));
+}
+
+TEST_F(TableStudyTest, SaysEveryFaultWithItsFix) {
+  const std::string faults = fault_of_study(
+      "[parameter]\nx = { min = 1, max = 0 }\nz = 3\n"
+      "[measured]\na = { mean = 3 }\nb = { values = [1] }\nx = { mean = 1, sd = 1, n = 1 }\n"
+      "c = { pictures = [\"heaps\"] }\nd = { mean = 1, sd = 1, n = 2, drift = 3 }\n");
+  for (const char* part :
+       {"min below max", "z = 3", "measured.a has a mean and no sd", "measured.b has one value",
+        "x is in [parameter] and in [measured]", "repose measure", "there is no such key"}) {
+    EXPECT_THAT(faults, HasSubstr(part));
+  }
+  EXPECT_THAT(fault_of_study("[measured]\ny = { mean = 1, sd = 1, n = 1 }\n"),
+              HasSubstr("has no [parameter]"));
+  EXPECT_THAT(fault_of_study("[parameter]\nx = { min = 0, max = 1 }\n"),
+              HasSubstr("section [measured] is missing"));
+}
+
+TEST_F(TableRunsTest, ReadsRepeatsSeedsStatusAndComments) {
+  const TableRuns read = runs(study(kLineStudy),
+                              "x,y,y_std,n_ok,seed,status,Comment\n"
+                              "0.1,2.0,0.4,2,7,ok,first\n"
+                              "0.2,2.5,,1,8,done,\n"
+                              "0.3,3.0,0.3,3,9,failed,licence gone\n"
+                              "0.4,NaN,,1,10,ok,\n"
+                              "0.5,,,,,,to be done\n");
+  ASSERT_EQ(read.runs.size(), 4U) << "the last row says nothing";
+  EXPECT_EQ(read.runs[0].repeats, 2);
+  EXPECT_EQ(read.runs[0].repeat_sd.at("value"), .4);
+  EXPECT_EQ(read.runs[0].job.seed, 7U);
+  EXPECT_THAT(read.runs[1].repeat_sd, IsEmpty());
+  EXPECT_EQ(read.runs[2].failure, "status is failed");
+  EXPECT_EQ(read.runs[3].failure, "y is NaN");
+  EXPECT_EQ(read.rows, 5);
+  EXPECT_EQ(read.failed, 2);
+  EXPECT_EQ(read.without_reading, 1);
+  EXPECT_THAT(read.notes, AllOf(Contains(HasSubstr("not used: Comment")),
+                                Contains(HasSubstr("Failed runs: 2 of 5 rows")),
+                                Contains(HasSubstr("No reading: 1 of 5 rows"))));
+}
+
+TEST_F(TableRunsTest, ReadsSemicolonsDecimalCommasAndUnits) {
+  const TableRuns read = runs(study(kLineStudy), "x;y\n[-];[mm]\n0,25;1234,5\n0,5;2,75\n");
+  ASSERT_EQ(read.runs.size(), 2U);
+  EXPECT_EQ(read.runs[0].job.values, std::vector{.25});
+  EXPECT_EQ(read.runs[0].readings.at("value"), 1234.5);
+}
+
+TEST_F(TableRunsTest, RefusesWhatIsNoTableOfTheseRuns) {
+  const TableStudy line = study(kLineStudy);
+  EXPECT_THAT(fault_of_runs(line, ""), HasSubstr("is empty"));
+  EXPECT_THAT(fault_of_runs(line, "x,y\n"), HasSubstr("no rows"));
+  EXPECT_THAT(fault_of_runs(line, "X,aor\n1,2\n"),
+              AllOf(HasSubstr("has no column x, which is in [parameter]. Did you mean X?"),
+                    HasSubstr("has no column y, which is in [measured]")));
+  EXPECT_THAT(
+      fault_of_runs(line, "x,y,n\n0.1,2,1\nabc,3,1\n0.3,27.3 deg,1\n0.4,1e12,1\n0.5,3,1.5\n"),
+      AllOf(HasSubstr("runs.csv:3: x is \"abc\""), HasSubstr("runs.csv:4: y")));
+  EXPECT_THAT(fault_of_runs(line, "x,y,n,seed\n0.4,1e12,1,1\n0.5,3,1.5,-1\n"),
+              AllOf(HasSubstr("runs.csv:2: y is 1e+12"), HasSubstr("runs.csv:3: n is 1.5"),
+                    HasSubstr("seed is -1")));
+}
+
+TEST_F(TableRunsTest, LeavesOutRowsBeyondTheBoundsAndSaysSo) {
+  const TableRuns read = runs(study(kLineStudy), "x,y\n0.5,1\n1.5,2\n-0.1,3\n");
+  EXPECT_EQ(read.rows, 1);
+  EXPECT_EQ(read.left_out, 2);
+  EXPECT_THAT(read.notes, Contains(AllOf(HasSubstr("2 of 3 rows are outside the bounds"),
+                                         HasSubstr("line 3: x is 1.5"), HasSubstr("widen"))));
+}
+
+TEST_F(TableRunsTest, PointsOutRunsOfOtherModels) {
+  const TableStudy line = study(kLineStudy);
+  const std::string rows = "0.1,2,1e6\n0.2,3.5,1e6\n0.3,4,";
+  EXPECT_THAT(runs(line, "x,y,stiffness\n" + rows + "1e7\n").notes,
+              Contains(AllOf(HasSubstr("stiffness differs between rows (1e6, 1e7)"),
+                             HasSubstr("Fix: make it a parameter"))));
+  EXPECT_THAT(runs(line, "x,y,stiffness\n" + rows + "1e6\n").notes, IsEmpty());
+}
+
+TEST_F(TableRunsTest, TellsRepeatsFromCopies) {
+  const TableStudy line = study(kLineStudy);
+  const TableRuns by_chance = runs(line, "x,y\n0.1,1\n0.1,1.2\n0.1,1\n0.5,3\n0.5,3\n");
+  EXPECT_EQ(by_chance.rows, 3) << "where others differ, the same digits are a copy";
+  EXPECT_EQ(by_chance.left_out, 2);
+  EXPECT_THAT(by_chance.notes, Contains(HasSubstr("runs with other seeds differ: 2 rows")));
+  const TableRuns exact = runs(line, "x,y\n0.1,1\n0.1,1\n0.5,3\n0.5,3\n");
+  EXPECT_EQ(exact.rows, 4) << "a program without chance gives the same again";
+  EXPECT_THAT(exact.notes, Contains(HasSubstr("If they are copies, delete them")));
+  const TableRuns pasted = runs(line, "x,y,y_sd,n\n0.1,1,0.1,2\n0.1,1,0.1,2\n0.5,3,0.2,2\n");
+  EXPECT_EQ(pasted.rows, 2) << "the runs that rows are means of differ";
+  const Problem problem = problem_of(line, exact);
+  EXPECT_FALSE(has_chance(problem.experiments[0], in_order(problem, exact.runs)));
+  const TableRuns zero = runs(line, "x,y,y_sd,n\n0.1,1,0,3\n0.5,3,0,3\n");
+  EXPECT_FALSE(has_chance(problem.experiments[0], in_order(problem, zero.runs)));
+  const TableRuns means = runs(line, "x,y,y_sd,n\n0.1,1,0,3\n0.5,3,0.2,3\n");
+  EXPECT_TRUE(has_chance(problem.experiments[0], in_order(problem, means.runs)));
+}
+
+TEST_F(TableFitTest, OneAngleLeavesARidge) {
+  const TableStudy of = study(test::made_up_study());
+  const StudyResult result = fit_table(of, runs(of, test::made_up_rows()));
+  const auto& joint = std::get<JointResult>(result.found);
+  ASSERT_EQ(joint.parameters.size(), 3U);
+  EXPECT_EQ(joint.parameters[2].name, "restitution");
+  EXPECT_EQ(joint.parameters[2].verdict, Verdict::undetermined);
+  EXPECT_NE(joint.parameters[0].verdict, Verdict::determined);
+  EXPECT_LT(joint.correlation[0][1], -.6) << "more of one is made up for by less of the other";
+  EXPECT_THAT(joint.equivalence_family, Not(IsEmpty()));
+  std::vector<double> misses;
+  for (const EquivalentSet& set : joint.equivalence_family) {
+    misses.push_back(std::abs(test::angle_of(set.values[0], set.values[1]) - test::kMeasuredAngle));
+  }
+  std::ranges::sort(misses);
+  EXPECT_LT(misses[misses.size() / 2], 2) << "the bench's sd is 1";
+  EXPECT_LT(misses.back(), 5) << "in a corner of the bounds the surface is known less well";
+  EXPECT_FALSE(joint.verdict) << "nothing was simulated";
+  EXPECT_FALSE(joint.observables[0].verification);
+  EXPECT_THAT(joint.agreement.text, HasSubstr("surfaces through the table's runs"));
+  EXPECT_THAT(joint.parameters[1].advice, HasSubstr("density, a column of the table"))
+      << "which would tell them apart";
+  EXPECT_FALSE(joint.parameters[0].narrowing->hour);
+}
+
+TEST_F(TableFitTest, ASecondReadingNarrowsWhatItDependsOn) {
+  const TableStudy one = study(test::made_up_study());
+  const TableStudy both = study(test::made_up_study(test::kMeasuredDensity));
+  const std::string rows = test::made_up_rows();
+  const auto width = [](const StudyResult& result, std::size_t parameter) {
+    const Interval& interval = std::get<JointResult>(result.found).parameters[parameter].interval;
+    return interval.high - interval.low;
+  };
+  const StudyResult with_one = fit_table(one, runs(one, rows));
+  const StudyResult with_both = fit_table(both, runs(both, rows));
+  EXPECT_LT(width(with_both, 0), .7 * width(with_one, 0));
+  EXPECT_GT(width(with_both, 2), .9 * width(with_one, 2)) << "restitution has no part in either";
+  const Interval& sliding = std::get<JointResult>(with_both.found).parameters[0].interval;
+  EXPECT_LT(sliding.low, .4);
+  EXPECT_GT(sliding.high, .4);
+}
+
+TEST_F(TableFitTest, WhatIsHeldOutIsPredictedByItsSurface) {
+  const TableStudy of =
+      study(test::made_up_study("density = { mean = 806.8, sd = 2, n = 4, held_out = true }\n"));
+  const StudyResult result = fit_table(of, runs(of, test::made_up_rows()));
+  const auto& joint = std::get<JointResult>(result.found);
+  ASSERT_EQ(joint.held_out.size(), 1U);
+  const Prediction& density = joint.held_out[0];
+  EXPECT_LT(density.interval.low, 806.8);
+  EXPECT_GT(density.interval.high, 806.8);
+  EXPECT_GT(density.coefficients_sd, 5) << "the ridge leaves much open";
+  ASSERT_TRUE(density.possible);
+  EXPECT_NEAR(density.possible->low, test::density_of(.7, .3), 6);
+}
+
+TEST_F(TableFitTest, NeedsEnoughPlaces) {
+  const TableStudy line = study(kLineStudy);
+  const auto fault = [&](const std::string& rows) {
+    try {
+      fit_table(line, runs(line, rows));
+    } catch (const base::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(fault("x,y\n0.5,3\n"),
+              AllOf(HasSubstr("readings at 1 different places"), HasSubstr("repose ask")));
+  EXPECT_THAT(fault("x,y\n0.1,NaN\n0.3,failed\n0.5,NaN\n0.7,NaN\n0.9,NaN\n"),
+              HasSubstr("readings at 0 different places, of 5 rows"));
+}
+
+TEST_F(TableFitTest, ResultComesBackFromItsTextWithoutAModel) {
+  const TableStudy of = study(test::made_up_study());
+  const StudyResult result = fit_table(of, runs(of, test::made_up_rows()));
+  const StudyResult read = result_from_json(to_json(result), "result.json");
+  EXPECT_TRUE(read == result);
+  EXPECT_FALSE(read.provenance.model);
+  ASSERT_TRUE(read.provenance.table);
+  EXPECT_EQ(read.provenance.table->rows, 30);
+  EXPECT_EQ(std::get<JointResult>(read.found).runs[0].repeats, 2);
+}
+
+TEST_F(TableFitTest, FolderHasResultAndReport) {
+  const std::atomic<bool> never = false;
+  const TableRequest request{
+      .study = folder_.write("study.toml", "[study]\ntitle = \"Made-up grains\"\n" +
+                                               test::made_up_study(test::kMeasuredDensity)),
+      .runs = {folder_.write("runs.csv", test::made_up_rows())},
+      .folder = folder_.path() / "out"};
+  std::vector<std::string> notes;
+  const auto result = calibrate_table(
+      request, [&](const std::string& note) { notes.push_back(note); }, never);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(read_result(request.folder).value() == *result);
+  const std::string page = report::study_report(request.folder).html;
+  EXPECT_THAT(page, AllOf(HasSubstr("Made-up grains"), HasSubstr("Not checked in simulations"),
+                          HasSubstr("restitution"), Not(HasSubstr("Hertz"))));
+  EXPECT_THAT([&] { read_study_record(request.folder); },
+              ThrowsMessage<base::InputError>(HasSubstr("made with another program")));
+}
+
+}  // namespace
+}  // namespace repose::calibrate
