@@ -75,7 +75,7 @@ std::vector<std::string> advice_of(const JointResult& joint) {
   std::vector<std::string> advice;
   for (const ResultParameter& parameter : joint.parameters) {
     if (parameter.advice.empty()) continue;
-    advice.push_back(titled(label_of(parameter.name)) + ": " + shortened(parameter.advice, 1000));
+    advice.push_back(title_of_parameter(parameter.name) + ": " + shortened(parameter.advice, 1000));
   }
   return advice;
 }
@@ -114,7 +114,7 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   for (const ResultParameter& parameter : joint.parameters) {
     const std::string text = bounds_text(parameter);
     if (text.empty()) continue;
-    chapter.blocks.push_back(Remark{titled(label_of(parameter.name)) + ": " + text + '.'});
+    chapter.blocks.push_back(Remark{title_of_parameter(parameter.name) + ": " + text + '.'});
   }
   if (!sets_first) add_sets(joint, chapter);
   PictureRow row = heaps_side_by_side(pictures);
@@ -144,8 +144,9 @@ namespace {
 
 Chart profile_chart(const ResultParameter& parameter) {
   const std::string label = label_of(parameter.name);
-  Chart chart = plane_chart("profile_" + parameter.name, titled(label), {.name = label, .unit = {}},
-                            {.name = "χ² above the minimum", .unit = {}});
+  Chart chart =
+      plane_chart("profile_" + parameter.name, title_of_parameter(parameter.name),
+                  {.name = label, .unit = {}}, {.name = "χ² above the minimum", .unit = {}});
   std::vector<ProfilePoint> points;
   for (const ProfilePoint& point : parameter.profile) {
     if (std::isfinite(point.value + point.chi2)) points.push_back(point);

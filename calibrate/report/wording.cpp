@@ -114,6 +114,11 @@ std::string titled(std::string text) {
   return text;
 }
 
+std::string title_of_parameter(const std::string& name) {
+  const std::string label = label_of(name);
+  return label == name ? name : titled(label);
+}
+
 std::string file_stem(const std::string& text) {
   constexpr std::size_t kLongest = 100;
   constexpr std::string_view kContact = "contact.";

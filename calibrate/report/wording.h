@@ -38,6 +38,9 @@ bool has_heap(const StudyResult& result);
 /// With a capital letter.
 std::string titled(std::string text);
 
+/// label_of() with a capital letter, unless it is a name of the user's own.
+std::string title_of_parameter(const std::string& name);
+
 /// A name for a file: letters, digits and _, not too long, without the "contact." of coefficients.
 std::string file_stem(const std::string& text);
 

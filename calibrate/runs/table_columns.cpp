@@ -129,6 +129,11 @@ TableColumns columns_of(const TableStudy& study, const Table& table, base::Fault
         });
     if (is_sd) taken.insert(name);
   }
+  // A column n alone may be anything: particles, seeds, numbers of rows.
+  if (found.count && found.sd.empty()) {
+    found.unused.push_back(*found.count);
+    found.count.reset();
+  }
   for (std::size_t place = 0; place < table.columns.size(); ++place) {
     const std::string& name = table.columns[place];
     if (taken.contains(name)) continue;

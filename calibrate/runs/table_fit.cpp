@@ -105,7 +105,22 @@ std::string surfaces_text(const JointFit& fit) {
   return text;
 }
 
+/// The best fit misses a reading by more than chance does in one of a hundred tables.
+bool misses_a_reading(const JointFit& fit) {
+  constexpr double kNormal99 = 2.576;
+  return std::ranges::any_of(fit.observables, [](const FittedObservable& one) {
+    return std::abs(one.difference_sigma) > kNormal99;
+  });
+}
+
 std::string unchecked_text(const JointFit& fit) {
+  if (misses_a_reading(fit)) {
+    return fmt::format(
+        "no parameters within the bounds give these readings: the nearest give {} (standard "
+        "uncertainties), and say nothing of the material. Check units and columns of the table and "
+        "of [measured]; else widen the bounds and add runs there",
+        surfaces_text(fit));
+  }
   return fmt::format(
       "the fit rests on surfaces through the table's runs, which give {} (standard uncertainties) "
       "at the fitted parameters. To check them, run them with your program, add the row to the "
@@ -126,6 +141,37 @@ void note_constant(const TableStudy& study, const TableRuns& table,
         "it out of [parameter].",
         study.parameters[j].name, table.places.front()[j]));
   }
+}
+
+/// Bounds that reach far beyond the rows.
+void note_extrapolation(const TableStudy& study, const TableRuns& table,
+                        std::vector<std::string>& notes) {
+  constexpr double kFar = .1;  // of the bounds' distance
+  for (std::size_t j = 0; j < study.parameters.size() && !table.places.empty(); ++j) {
+    const Parameter& parameter = study.parameters[j];
+    double low = parameter.max, high = parameter.min;
+    for (const std::vector<double>& place : table.places) {
+      low = std::min(low, place[j]);
+      high = std::max(high, place[j]);
+    }
+    const double far = kFar * (parameter.max - parameter.min);
+    if (low == high || (low - parameter.min < far && parameter.max - high < far)) continue;
+    notes.push_back(fmt::format(
+        "{0}: the rows are from {1:g} to {2:g}, the bounds {3:g} and {4:g}. Beyond the rows all is "
+        "extrapolated, equally good sets too. Fix: rows there, or bounds {1:g} and {2:g}.",
+        parameter.name, low, high, parameter.min, parameter.max));
+  }
+}
+
+/// Where no parameters give the readings, there is no interval of those that do.
+void withdraw_intervals(const Problem& problem, JointFit& fit) {
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+    FittedParameter& parameter = fit.parameters[j];
+    parameter.interval = {problem.parameters[j].min, problem.parameters[j].max};
+    parameter.verdict = Verdict::undetermined;
+    parameter.advice = "no parameters within the bounds give all readings: see why first";
+  }
+  fit.equivalence_family.clear();
 }
 
 }  // namespace
@@ -163,8 +209,12 @@ std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns&
     faults.push_back(
         {.where = fmt::format("{}", fmt::join(table.files, ", ")),
          .subject = experiment.name,
-         .value = fmt::format("has readings at {} different places, of {} rows", places.size(),
-                              table.rows),
+         .value = fmt::format("has readings at {} different places, of {} rows{}", places.size(),
+                              table.rows,
+                              table.left_out == 0 ? ""
+                                                  : fmt::format(" ({} more are outside the bounds, "
+                                                                "or copies)",
+                                                                table.left_out)),
          .rule = fmt::format("{} at least for {} parameters", fewest, problem.parameters.size()),
          .fix = "make more runs; repose ask STUDY.toml --runs runs.csv says where."});
   }
@@ -184,6 +234,7 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
   for (FittedParameter& parameter : fit.parameters) {
     if (parameter.narrowing) parameter.narrowing->hour.reset();
   }
+  if (misses_a_reading(fit)) withdraw_intervals(problem, fit);
   JointResult joint = fitted_result(problem, fit, runs);
   joint.agreement.text = unchecked_text(fit);
   for (const Observable& observable : problem.held_out) {
@@ -192,6 +243,7 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
   joint.warnings = study.notes;
   joint.warnings.insert(joint.warnings.end(), table.notes.begin(), table.notes.end());
   note_constant(study, table, joint.warnings);
+  note_extrapolation(study, table, joint.warnings);
   joint.warnings.insert(joint.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   return {.provenance = {.study = identity_of(study, table),
                          .model = {},

@@ -118,10 +118,26 @@ class RowReader {
           cells.add(fault_at(row.line, reading, fmt::format("is {:g}", *row.reads[reading]),
                              "NaN where the run failed, or another unit."));
         }
+        check_range(row, reading, cells);
       }
       read_repeats(row, k, number, cells);
     }
     faults_.add_all(cells.all());
+  }
+
+  /// An angle of 9999 degrees is a failed run's.
+  void check_range(const Row& row, const std::string& reading, base::Faults& cells) {
+    const auto value = row.reads.at(reading);
+    for (const auto* observables : {&study_.measured, &study_.held_out}) {
+      for (const Observable& one : *observables) {
+        if (!value || one.name != reading) continue;
+        if (*value >= one.least && *value <= one.most) continue;
+        cells.add(fault_at(row.line, reading,
+                           fmt::format("is {:g}: in {}, readings are from {:g} to {:g}", *value,
+                                       one.unit, one.least, one.most),
+                           "NaN where the run failed, or another unit."));
+      }
+    }
   }
 
   template <typename Number>
@@ -354,7 +370,12 @@ class Collector {
     for (const std::string& reading : readings_) {
       const auto run = run_of(row, reading);
       if (!run) continue;
-      (run->failure.empty() ? has_any : has_failed) = true;
+      if (!run->failure.empty()) {
+        has_failed = true;
+        if (why_.empty()) why_ = run->failure;
+        continue;
+      }
+      has_any = true;
       found_.runs.push_back(*run);
     }
     if (has_failed) ++found_.failed;
@@ -380,14 +401,10 @@ class Collector {
 
   void count_failures() {
     if (found_.failed > 0) {
-      std::string why;
-      for (const Run& run : found_.runs) {
-        if (why.empty()) why = run.failure;
-      }
       found_.notes.push_back(fmt::format(
-          "Failed runs: {} of {} rows (the first: {}). They count as runs without a reading, and "
-          "parameters near them as unlikely.",
-          found_.failed, found_.rows, why));
+          "Failed runs: {} of {} rows (the first: {}). They are left out: whether the parameters "
+          "or the computer made them fail, the table does not say.",
+          found_.failed, found_.rows, why_));
     }
     if (found_.without_reading > 0) {
       found_.notes.push_back(fmt::format(
@@ -401,6 +418,7 @@ class Collector {
   Names readings_;
   Names others_;
   std::vector<Row> all_;
+  std::string why_;  ///< the first failed run failed
   TableRuns found_;
 };
 
@@ -475,6 +493,15 @@ TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesy
   }
   faults.throw_if_any();
   TableRuns made = collector.take();
+  constexpr int kMaxRows = 1000;
+  if (made.rows > kMaxRows) {
+    base::refuse(
+        fmt::format("{}", fmt::join(found.files, ", ")),
+        fmt::format("has {} rows within the bounds; surfaces through more than {} take "
+                    "hours",
+                    made.rows, kMaxRows),
+        "put repeats together: their mean, with columns NAME_sd and n; or leave rows out.");
+  }
   made.files = std::move(found.files);
   made.columns = std::move(found.columns);
   made.texts = std::move(found.texts);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "calibrate/runs/next_runs.h"
 #include "calibrate/runs/table_runs.h"
@@ -48,12 +49,22 @@ std::string table_of(const calibrate::TableStudy& study, const calibrate::NextRu
     page.add(table);
     page.add_gap();
     page.add(
-        fmt::format("{} runs, in {}: make them, fill in the readings, and append the rows to "
-                    "the table, or give both with --runs.",
+        fmt::format("{} runs, in {}: make them, fill in the readings, and give both tables "
+                    "with --runs.",
                     next.runs.size(), file));
   }
   for (const std::string& line : next.settled) page.add(line);
   return page.text();
+}
+
+/// Whether somebody has filled in runs that were asked for before. What cannot be read, neither.
+bool is_filled_in(const fs::path& file, const calibrate::TableStudy& study) {
+  if (!fs::exists(file)) return false;
+  try {
+    return !calibrate::read_table_runs(study, {file}, calibrate::NoRows::allowed).runs.empty();
+  } catch (const base::InputError&) {
+    return true;
+  }
 }
 
 ExitCode run_ask(const AskArguments& arguments) {
@@ -68,6 +79,10 @@ ExitCode run_ask(const AskArguments& arguments) {
   if (!errors.empty()) return ExitCode::bad_input;
   const calibrate::TableStudy study =
       calibrate::read_table_study(arguments.study, arguments.settings);
+  if (is_filled_in(arguments.out_file, study)) {
+    base::refuse(arguments.out_file, "holds readings that were filled in",
+                 "another name with --out; give this file with --runs.");
+  }
   calibrate::TableRuns table;
   if (!arguments.runs.empty()) {
     table = calibrate::read_table_runs(study, {arguments.runs.begin(), arguments.runs.end()},

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
@@ -145,19 +146,33 @@ TEST_F(TableRunsTest, ReadsRepeatsSeedsStatusAndComments) {
                               "0.3,3.0,0.3,3,9,failed,licence gone\n"
                               "0.4,NaN,,1,10,ok,\n"
                               "0.5,,,,,,to be done\n");
-  ASSERT_EQ(read.runs.size(), 4U) << "the last row says nothing";
+  ASSERT_EQ(read.runs.size(), 2U) << "why runs failed nobody knows; the last row says nothing";
   EXPECT_EQ(read.runs[0].repeats, 2);
   EXPECT_EQ(read.runs[0].repeat_sd.at("value"), .4);
   EXPECT_EQ(read.runs[0].job.seed, 7U);
   EXPECT_THAT(read.runs[1].repeat_sd, IsEmpty());
-  EXPECT_EQ(read.runs[2].failure, "status is failed");
-  EXPECT_EQ(read.runs[3].failure, "y is NaN");
   EXPECT_EQ(read.rows, 5);
   EXPECT_EQ(read.failed, 2);
   EXPECT_EQ(read.without_reading, 1);
   EXPECT_THAT(read.notes, AllOf(Contains(HasSubstr("not used: Comment")),
-                                Contains(HasSubstr("Failed runs: 2 of 5 rows")),
+                                Contains(HasSubstr("Failed runs: 2 of 5 rows (the first: status is "
+                                                   "failed)")),
                                 Contains(HasSubstr("No reading: 1 of 5 rows"))));
+}
+
+TEST_F(TableRunsTest, TakesAColumnOfNumbersAloneForNothing) {
+  // Particles, or seeds: without a standard deviation nothing says that rows are means.
+  const TableRuns read = runs(study(kLineStudy), "x,y,n\n0.1,2,50000\n0.2,2.5,50000\n");
+  EXPECT_EQ(read.runs[0].repeats, 1);
+  EXPECT_THAT(read.notes, Contains(HasSubstr("not used: n")));
+}
+
+TEST_F(TableRunsTest, RefusesAnglesThatAreNone) {
+  const TableStudy angle = study(
+      "[parameter]\nx = { min = 0, max = 1 }\n"
+      "[measured]\ny = { mean = 27, sd = 1, n = 4, unit = \"deg\" }\n");
+  EXPECT_THAT(fault_of_runs(angle, "x,y\n0.1,25\n0.2,9999\n0.3,-5\n"),
+              AllOf(HasSubstr(":3: y is 9999"), HasSubstr(":4: y is -5"), HasSubstr("Fix: ")));
 }
 
 TEST_F(TableRunsTest, ReadsSemicolonsDecimalCommasAndUnits) {
@@ -177,7 +192,7 @@ TEST_F(TableRunsTest, RefusesWhatIsNoTableOfTheseRuns) {
   EXPECT_THAT(
       fault_of_runs(line, "x,y,n\n0.1,2,1\nabc,3,1\n0.3,27.3 deg,1\n0.4,1e12,1\n0.5,3,1.5\n"),
       AllOf(HasSubstr("runs.csv:3: x is \"abc\""), HasSubstr("runs.csv:4: y")));
-  EXPECT_THAT(fault_of_runs(line, "x,y,n,seed\n0.4,1e12,1,1\n0.5,3,1.5,-1\n"),
+  EXPECT_THAT(fault_of_runs(line, "x,y,y_sd,n,seed\n0.4,1e12,,1,1\n0.5,3,0.1,1.5,-1\n"),
               AllOf(HasSubstr("runs.csv:2: y is 1e+12"), HasSubstr("runs.csv:3: n is 1.5"),
                     HasSubstr("seed is -1")));
 }
@@ -288,6 +303,44 @@ TEST_F(TableFitTest, NeedsEnoughPlaces) {
               AllOf(HasSubstr("readings at 1 different places"), HasSubstr("repose ask")));
   EXPECT_THAT(fault("x,y\n0.1,NaN\n0.3,failed\n0.5,NaN\n0.7,NaN\n0.9,NaN\n"),
               HasSubstr("readings at 0 different places, of 5 rows"));
+}
+
+/// y = 2 + 2 x + .1 z, and a little chance.
+std::string line_rows(double from, double to) {
+  std::string rows = "x,z,y\n";
+  for (int k = 0; k < 14; ++k) {
+    const double x = from + (to - from) * k / 13, z = k * 5 % 14 / 13.;
+    rows += fmt::format("{:.4f},{:.4f},{:.4f}\n", x, z, 2 + 2 * x + .1 * z + .01 * (k % 3));
+  }
+  return rows;
+}
+
+std::string line_study(double mean) {
+  return fmt::format(
+      "[parameter]\nx = {{ min = 0, max = 1 }}\nz = {{ min = 0, max = 1 }}\n"
+      "[measured]\ny = {{ mean = {}, sd = 0.1, n = 4 }}\n",
+      mean);
+}
+
+TEST_F(TableFitTest, GivesNoIntervalsWhereNoParametersGiveTheReading) {
+  const TableStudy of = study(line_study(9));
+  const auto joint = std::get<JointResult>(fit_table(of, runs(of, line_rows(0, 1))).found);
+  EXPECT_THAT(joint.agreement.text, HasSubstr("no parameters within the bounds give"));
+  for (const ResultParameter& parameter : joint.parameters) {
+    EXPECT_EQ(parameter.verdict, Verdict::undetermined);
+    EXPECT_EQ(parameter.interval.low, parameter.bounds.low);
+    EXPECT_EQ(parameter.interval.high, parameter.bounds.high);
+  }
+  EXPECT_THAT(joint.equivalence_family, IsEmpty());
+}
+
+TEST_F(TableFitTest, SaysWhereThereAreNoRows) {
+  const TableStudy of = study(line_study(3));
+  const auto warnings = [&](double from, double to) {
+    return std::get<JointResult>(fit_table(of, runs(of, line_rows(from, to))).found).warnings;
+  };
+  EXPECT_THAT(warnings(.3, .7), Contains(HasSubstr("x: the rows are from 0.3 to 0.7")));
+  EXPECT_THAT(warnings(.05, .95), Not(Contains(HasSubstr("extrapolated"))));
 }
 
 TEST_F(TableFitTest, ResultComesBackFromItsTextWithoutAModel) {

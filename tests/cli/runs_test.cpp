@@ -80,6 +80,11 @@ TEST_F(RunsCommands, AskWritesTheNextRuns) {
   EXPECT_THAT(more.err, HasSubstr("No reading: 8 of 38 rows"));
   const Finished wrong = run({"ask", "study.toml", "--count", "0", "--out", "next.csv"});
   EXPECT_EQ(wrong.exit_code, 2);
+  folder_.write("next.csv", std::string("sliding,rolling,restitution,angle,density,reason\n"
+                                        ".3,.1,.5,17.5,,may fit\n"));
+  const Finished again = run({"ask", "study.toml", "--out", "next.csv"});
+  EXPECT_EQ(again.exit_code, 2) << "somebody filled it in";
+  EXPECT_THAT(again.err, HasSubstr("holds readings that were filled in"));
   folder_.write("mine.csv", std::string("a,b\n1,2\n"));
   EXPECT_EQ(run({"ask", "study.toml", "--out", "mine.csv"}).exit_code, 2) << "it is somebody's";
 }
