@@ -54,6 +54,8 @@ using calibrate::sliding_friction_of;
 
 // Input decks for other programs.
 using calibrate::export_study;
+using calibrate::export_target_named;
+using calibrate::export_targets;
 using calibrate::ExportRequest;
 using calibrate::ExportTarget;
 using calibrate::write_export;

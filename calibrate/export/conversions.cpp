@@ -4,140 +4,35 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/export/rolling.h"
+#include "calibrate/export/target_entry.h"
 #include "dem/contact/model_names.h"
-#include "dem/contact/restitution.h"
 
 namespace repose::calibrate {
 namespace {
 
-/// LIGGGHTS takes restitution above .05 only.
-constexpr double kMinLiggghtsRestitution = .0501;
-
-struct RestitutionLaw {
-  const char* name;
-  const char* law;
-  const char* limits;
-};
-
-RestitutionLaw restitution_law(ExportTarget target) {
-  constexpr const char* kPulls =
-      "The damper may pull and has the textbook factor, which then gives the same rebound of a "
-      "sphere. Spheres of a clump that land at once lose a different fraction of the speed from "
-      "ours.";
-  switch (target) {
-    case ExportTarget::liggghts:
-      return {"coefficientRestitution", "speed after per speed before a central impact", kPulls};
-    case ExportTarget::lammps:
-      return {
-          "damping tsuji",
-          "damper p(value) sqrt(2/3 S_n m*), p a polynomial of degree 6; it may pull",
-          "The value is that for which p is the textbook factor times sqrt(3/2), and may be "
-          "below 0. Spheres of a clump that land at once lose a different fraction of the speed "
-          "from ours."};
-    case ExportTarget::yade:
-      return {"betan",
-              "damper 2 betan sqrt(S_n m*), which never pulls: betan is half of our factor c(e)",
-              "A clump's spheres are given the clump's mass, which YADE uses for damping."};
-    case ExportTarget::edem:
-      break;
-  }
-  return {"Coefficient of Restitution", "speed after per speed before a central impact",
-          "EDEM's damper has the textbook factor. Where tensile damping is disabled, low values "
-          "rebound too high (0.1 gives 0.25): calibrate the drop there."};
-}
-
-/// The polynomial by which LAMMPS turns a restitution into the factor of its `damping tsuji`
-/// (LAMMPS documentation, "pair_style granular", eq. for alpha); falls with `value` below 1.
-double tsuji_polynomial(double value) {
-  double sum = 0;
-  for (const double term : {4.8218, -18.022, 27.467, -22.348, 11.087, -4.2783, 1.2728}) {
-    sum = sum * value + term;
-  }
-  return sum;
-}
-
-/// Where it takes a value, 0 to 6 (restitution from .01 on): by halving.
-double tsuji_value(double factor) {
-  double low = -1;
-  double high = 1;
-  constexpr int kHalvings = 60;
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = .5 * (low + high);
-    (tsuji_polynomial(middle) > factor ? low : high) = middle;
-  }
-  return .5 * (low + high);
-}
-
-double exported_restitution(ExportTarget target, double restitution) {
-  if (target == ExportTarget::yade) return dem::damping_factor(restitution) / 2;
-  if (target == ExportTarget::lammps) {
-    return tsuji_value(std::sqrt(1.5) * dem::textbook_damping_factor(restitution));
-  }
-  if (target == ExportTarget::liggghts) return std::max(restitution, kMinLiggghtsRestitution);
-  return restitution;
-}
-
 Conversion restitution(ExportTarget target, const std::string& pair, double value) {
-  const RestitutionLaw law = restitution_law(target);
-  Conversion converted{.coefficient = pair + "restitution",
-                       .value = value,
-                       .exported = exported_restitution(target, value),
-                       .target_name = law.name,
-                       .ours =
-                           "speed after per speed before a central impact of two spheres; the "
-                           "damper never pulls",
-                       .theirs = law.law,
-                       .limits = law.limits};
-  if (target == ExportTarget::edem) converted.fidelity = Fidelity::close;
-  if (target == ExportTarget::liggghts && converted.exported > value) {
-    converted.fidelity = Fidelity::approximate;
-    converted.limits = "LIGGGHTS accepts only values above .05.";
-  }
-  return converted;
-}
-
-std::string friction_name(ExportTarget target) {
-  switch (target) {
-    case ExportTarget::liggghts:
-      return "coefficientFriction";
-    case ExportTarget::lammps:
-      return "tangential mindlin_rescale, last value";
-    case ExportTarget::yade:
-      return "frictAngle, its tangent";
-    case ExportTarget::edem:
-      break;
-  }
-  return "Coefficient of Static Friction";
+  const RestitutionCounterpart theirs = target->restitution(value);
+  return {.coefficient = pair + "restitution",
+          .value = value,
+          .exported = theirs.value,
+          .target_name = theirs.name,
+          .fidelity = theirs.fidelity,
+          .ours =
+              "speed after per speed before a central impact of two spheres; the "
+              "damper never pulls",
+          .theirs = theirs.law,
+          .limits = theirs.limits};
 }
 
 Conversion sliding(ExportTarget target, const std::string& pair, double value) {
-  Conversion converted{.coefficient = pair + "sliding_friction",
-                       .value = value,
-                       .exported = value,
-                       .target_name = friction_name(target),
-                       .ours = "Coulomb's limit of a Mindlin spring without slip",
-                       .theirs = "the same"};
-  if (target == ExportTarget::liggghts || target == ExportTarget::yade) {
-    converted.limits =
-        "Their spring keeps its force when the contact unloads, ours shrinks with the contact: "
-        "oblique impacts cause slightly more spin.";
-  }
-  return converted;
-}
-
-std::string rolling_name(ExportTarget target) {
-  switch (target) {
-    case ExportTarget::liggghts:
-      return "coefficientRollingFriction";
-    case ExportTarget::lammps:
-      return "rolling sds, last value";
-    case ExportTarget::yade:
-      return "eta";
-    case ExportTarget::edem:
-      break;
-  }
-  return "Coefficient of Rolling Friction";
+  return {.coefficient = pair + "sliding_friction",
+          .value = value,
+          .exported = value,
+          .target_name = std::string(target->sliding_name),
+          .fidelity = Fidelity::exact,
+          .ours = "Coulomb's limit of a Mindlin spring without slip",
+          .theirs = "the same",
+          .limits = std::string(target->sliding_limits)};
 }
 
 Conversion rolling(ExportTarget target, const std::string& pair, Partner partner,
@@ -147,10 +42,10 @@ Conversion rolling(ExportTarget target, const std::string& pair, Partner partner
   Conversion converted{.coefficient = pair + "rolling_friction",
                        .value = value,
                        .exported = value * own.factor,
-                       .target_name = rolling_name(target),
+                       .target_name = std::string(target->rolling_name),
                        .fidelity = own.fidelity,
                        .ours = rolling_law(model),
-                       .theirs = rolling_law(target, model),
+                       .theirs = target->rolling_law(model),
                        .limits = own.limits};
   if (value == 0 || model == dem::RollingModel::none) {
     converted.exported = 0;

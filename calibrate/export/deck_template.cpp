@@ -10,15 +10,6 @@
 
 #include "base/text.h"
 #include "calibrate/export/templates.h"
-#include "dem/experiment/draw_down.h"
-#include "dem/experiment/drop.h"
-#include "dem/experiment/experiment_table.h"
-#include "dem/experiment/fill.h"
-#include "dem/experiment/heap.h"
-#include "dem/experiment/pendulum.h"
-#include "dem/experiment/roll.h"
-#include "dem/experiment/tilt.h"
-#include "dem/experiment/tilt_on_grains.h"
 
 namespace repose::calibrate {
 
@@ -79,38 +70,6 @@ std::string filled(const std::string& template_name, const DeckFields& fields) {
     throw std::logic_error("the template " + template_name + " cannot be filled in");
   }
   return out;
-}
-
-bool has_decks(ExportTarget target, const dem::Protocol& protocol) {
-  const dem::ExperimentEntry& entry = dem::entry_of(protocol);
-  const auto is_one_of = [&entry](std::initializer_list<dem::Experiment> experiments) {
-    return std::ranges::find(experiments, &entry) != experiments.end();
-  };
-  // Tables of what all experiments are made of.
-  if (target == ExportTarget::edem) return true;
-  if (is_one_of({dem::experiment_of<dem::DropProtocol>(), dem::experiment_of<dem::TiltProtocol>(),
-                 dem::experiment_of<dem::RollProtocol>()})) {
-    return true;
-  }
-  if (is_one_of({dem::experiment_of<dem::HeapProtocol>()})) return target != ExportTarget::lammps;
-  if (target != ExportTarget::liggghts) return false;
-  if (is_one_of({dem::experiment_of<dem::FillProtocol>()})) {
-    const auto& fill = protocol.as<dem::FillProtocol>();
-    return !fill.taps && !fill.pour_kg_s;
-  }
-  return is_one_of(
-      {dem::experiment_of<dem::GrainDropProtocol>(), dem::experiment_of<dem::GrainTiltProtocol>(),
-       dem::experiment_of<dem::GrainRollProtocol>(), dem::experiment_of<dem::PendulumProtocol>(),
-       dem::experiment_of<dem::DrawDownProtocol>()});
-}
-
-std::string names_with_decks(ExportTarget target) {
-  std::string names;
-  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
-    if (!has_decks(target, entry.usual)) continue;
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  return names;
 }
 
 }  // namespace repose::calibrate

@@ -5,9 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/export/export.h"
-#include "dem/experiment/experiment.h"
-
 namespace repose::calibrate {
 
 /// What a template's {{NAME}} stand for. A section {{#NAME}} ... {{/NAME}} is written once for each
@@ -38,12 +35,5 @@ std::string sanitized(std::string_view name);
 /// A template (of calibrate/export/templates, by its name there) filled in. Blank lines are left
 /// out. Throws std::logic_error for a template that is wrong.
 std::string filled(const std::string& template_name, const DeckFields& fields);
-
-/// Whether a target has a deck for an experiment that is done so. Each of them has been run: see
-/// tests/peers. EDEM has tables in place of decks, which hold for all.
-bool has_decks(ExportTarget target, const dem::Protocol& protocol);
-
-/// Names of all experiments with a deck: "drop, tilt".
-std::string names_with_decks(ExportTarget target);
 
 }  // namespace repose::calibrate

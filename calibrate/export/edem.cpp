@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "calibrate/export/conversions.h"
-#include "calibrate/export/targets.h"
+#include "calibrate/export/target_entry.h"
 #include "calibrate/study/study_simulator.h"
 #include "dem/experiment/experiment_table.h"
 #include "dem/experiment/heap.h"
@@ -12,6 +12,19 @@ namespace {
 /// G = E / 2(1 + nu).
 double shear_modulus_pa(const dem::Material& material) {
   return material.young_modulus_pa / (2 * (1 + material.poisson_ratio));
+}
+
+const char* edem_rolling_name(dem::RollingModel model) {
+  switch (model) {
+    case dem::RollingModel::relative_constant_torque:
+      return "RVD Rolling Friction";
+    case dem::RollingModel::elastic_plastic:
+      return "Type C Rolling Friction";
+    case dem::RollingModel::none:
+    case dem::RollingModel::constant_torque:
+      break;
+  }
+  return "Standard Rolling Friction";
 }
 
 /// What the rolling model's coefficient multiplies.
@@ -144,24 +157,79 @@ ExportedFile clump_table(const dem::ClumpShape& grain) {
   return {.name = "clump.csv", .text = text};
 }
 
-}  // namespace
-
-const char* edem_rolling_name(dem::RollingModel model) {
-  switch (model) {
-    case dem::RollingModel::relative_constant_torque:
-      return "RVD Rolling Friction";
-    case dem::RollingModel::elastic_plastic:
-      return "Type C Rolling Friction";
-    case dem::RollingModel::none:
-    case dem::RollingModel::constant_torque:
-      break;
-  }
-  return "Standard Rolling Friction";
-}
-
 std::vector<ExportedFile> edem_files(const ExportFacts& facts, const Conversions& conversions) {
   return {values_text(facts, conversions), values_table(facts, conversions),
           clump_table(facts.grain())};
+}
+
+std::string edem_program(dem::RollingModel model) {
+  return fmt::format("EDEM: Hertz-Mindlin (no slip), {}", edem_rolling_name(model));
+}
+
+RestitutionCounterpart edem_restitution(double ours) {
+  return {
+      .name = "Coefficient of Restitution",
+      .value = ours,
+      .fidelity = Fidelity::close,
+      .law = "speed after per speed before a central impact",
+      .limits =
+          "EDEM's damper has the textbook factor. Where tensile damping is disabled, low values "
+          "rebound too high (0.1 gives 0.25): calibrate the drop there."};
+}
+
+std::string edem_rolling_law(dem::RollingModel model) {
+  if (model == dem::RollingModel::relative_constant_torque) {
+    return "RVD rolling friction: mu_r F R* on both bodies, against their relative spin";
+  }
+  if (model == dem::RollingModel::elastic_plastic) {
+    return "Type C rolling friction: spring, up to mu_r F R*, and damper, against the relative "
+           "rotation";
+  }
+  return "standard rolling friction: mu_r F times each body's own distance from centre of mass to "
+         "contact, against its own spin";
+}
+
+/// EDEM has all three laws, with the same levers: Standard, RVD and Type C rolling friction
+/// (Altair, EDEM 2023 documentation, "Rolling Friction").
+RollingConversion edem_rolling(dem::RollingModel model, Partner partner,
+                               const dem::ClumpShape& /*grain*/) {
+  RollingConversion converted;
+  if (model == dem::RollingModel::constant_torque) return converted;
+  if (model == dem::RollingModel::elastic_plastic) {
+    converted.fidelity = Fidelity::close;
+    converted.limits =
+        "The same limit and the same damping ratio; the spring up to there has EDEM's own normal "
+        "stiffness in it, which grows with the overlap otherwise than ours. ";
+  } else if (partner == Partner::grain) {
+    converted.fidelity = Fidelity::close;
+    converted.limits =
+        "Between two grains EDEM's manual prints the direction as that of half the sum of both "
+        "spins, which is nought where two equal grains roll off each other. We take it for the "
+        "relative spin, as in the model of Ai et al. (type A) that the manual says it is: simulate "
+        "roll_on_grains there before you trust it. ";
+  }
+  return converted;
+}
+
+bool edem_has_deck(const dem::Protocol& /*protocol*/) { return true; }
+
+}  // namespace
+
+ExportTarget edem_target() {
+  static constexpr TargetEntry kTarget{.name = "edem",
+                                       .summary = "tables to type in",
+                                       .has_tables = true,
+                                       .takes_incline_material = true,
+                                       .program = edem_program,
+                                       .restitution = edem_restitution,
+                                       .sliding_name = "Coefficient of Static Friction",
+                                       .sliding_limits = "",
+                                       .rolling_name = "Coefficient of Rolling Friction",
+                                       .rolling_law = edem_rolling_law,
+                                       .rolling = edem_rolling,
+                                       .has_deck = edem_has_deck,
+                                       .files = edem_files};
+  return &kTarget;
 }
 
 }  // namespace repose::calibrate

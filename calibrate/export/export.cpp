@@ -10,7 +10,7 @@
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/facts.h"
 #include "calibrate/export/readme.h"
-#include "calibrate/export/targets.h"
+#include "calibrate/export/target_entry.h"
 #include "calibrate/result/result.h"
 #include "calibrate/result/result_text.h"
 
@@ -49,21 +49,6 @@ std::vector<std::vector<double>> exported_sets(const StudyResult& result) {
 
 namespace {
 
-std::vector<ExportedFile> files_for(ExportTarget target, const ExportFacts& facts,
-                                    const Conversions& conversions) {
-  switch (target) {
-    case ExportTarget::liggghts:
-      return liggghts_files(facts, conversions);
-    case ExportTarget::lammps:
-      return lammps_files(facts, conversions);
-    case ExportTarget::yade:
-      return yade_files(facts, conversions);
-    case ExportTarget::edem:
-      break;
-  }
-  return edem_files(facts, conversions);
-}
-
 /// Values that are no more than a place within the bounds.
 std::vector<std::string> warnings_of(const ExportFacts& facts) {
   std::vector<std::string> warnings;
@@ -101,18 +86,19 @@ std::vector<FittedValue> of_set(std::vector<FittedValue> fitted,
 
 }  // namespace
 
-std::string name_of(ExportTarget target) {
-  for (const auto& [known, name] : kExportTargets) {
-    if (known == target) return std::string(name);
-  }
-  return {};
+std::array<ExportTarget, 4> export_targets() {
+  return {liggghts_target(), yade_target(), lammps_target(), edem_target()};
 }
 
-std::optional<ExportTarget> export_target_named(std::string_view name) {
-  for (const auto& [target, known] : kExportTargets) {
-    if (known == name) return target;
+std::string name_of(ExportTarget target) { return std::string(target->name); }
+
+std::string summary_of(ExportTarget target) { return std::string(target->summary); }
+
+ExportTarget export_target_named(std::string_view name) {
+  for (const ExportTarget target : export_targets()) {
+    if (target->name == name) return target;
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 std::string name_of(Fidelity fidelity) {
@@ -135,7 +121,7 @@ StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
   base::Faults faults;
   faults.add_all(refusals(facts, request, made.conversions));
   faults.throw_if_any();
-  made.files = files_for(request.target, facts, made.conversions);
+  made.files = request.target->files(facts, made.conversions);
   made.files.push_back(readme_of(facts, request, made.conversions, sets));
   made.warnings = warnings_of(facts);
   return made;

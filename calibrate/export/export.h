@@ -2,10 +2,8 @@
 
 #include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "dem/shape/clump/clump_shape.h"
@@ -17,18 +15,25 @@ namespace repose::calibrate {
 
 struct StudyResult;
 
-enum class ExportTarget { liggghts, lammps, yade, edem };
+struct TargetEntry;
 
-/// What the command line and the folders call them.
-inline constexpr std::array<std::pair<ExportTarget, std::string_view>, 4> kExportTargets = {{
-    {ExportTarget::liggghts, "liggghts"},
-    {ExportTarget::lammps, "lammps"},
-    {ExportTarget::yade, "yade"},
-    {ExportTarget::edem, "edem"},
-}};
+/// Another program that studies are exported to (target_entry.h).
+using ExportTarget = const TargetEntry*;
 
+ExportTarget liggghts_target();
+ExportTarget yade_target();
+ExportTarget lammps_target();
+ExportTarget edem_target();
+
+/// All of them.
+std::array<ExportTarget, 4> export_targets();
+
+/// What the command line and the folders call it.
 std::string name_of(ExportTarget target);
-std::optional<ExportTarget> export_target_named(std::string_view name);
+/// In a few words, what is written for it.
+std::string summary_of(ExportTarget target);
+/// Null where there is none of that name.
+ExportTarget export_target_named(std::string_view name);
 
 /// A coefficient that was found.
 struct FittedValue {
@@ -79,7 +84,7 @@ struct StudyExport {
 };
 
 struct ExportRequest {
-  ExportTarget target = ExportTarget::liggghts;
+  ExportTarget target = liggghts_target();
   /// Otherwise a coefficient whose conversion is approximate is refused.
   bool takes_approximate = false;
   /// Of the equally good sets, the one whose values are exported; 1 is the best.

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "base/version.h"
 #include "calibrate/export/deck_template.h"
+#include "calibrate/export/target_entry.h"
 #include "calibrate/study/study_simulator.h"
 #include "dem/experiment/drop.h"
 #include "dem/experiment/experiment_table.h"
@@ -32,6 +33,16 @@ constexpr double kLongestFlat_m = 20;
 TouchingPose touching(const dem::ClumpShape& shape, const dem::Quaternion& orientation) {
   return {.orientation = orientation,
           .height_m = dem::reach_towards(shape, orientation, -dem::Vector::UnitZ())};
+}
+
+/// Names of all experiments with a deck: "drop, tilt".
+std::string names_with_decks(ExportTarget target) {
+  std::string names;
+  for (const dem::ExperimentEntry& entry : dem::all_experiments()) {
+    if (!target->has_deck(entry.usual)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -99,11 +110,10 @@ std::vector<dem::Experiment> ExportFacts::left_out() const {
 bool ExportFacts::has_deck(dem::Experiment experiment) const {
   const auto found = study_.experiments.find(experiment);
   if (found == study_.experiments.end()) return false;
-  // Its contacts all have one rolling friction.
   const bool has_own_incline =
       dem::model_for(study_, experiment).parts.contains(dem::WallPart::incline);
-  if (target_ == ExportTarget::yade && has_own_incline) return false;
-  return has_decks(target_, found->second.protocol);
+  if (has_own_incline && !target_->takes_incline_material) return false;
+  return target_->has_deck(found->second.protocol);
 }
 
 std::vector<dem::WallPart> ExportFacts::parts() const {

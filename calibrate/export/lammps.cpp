@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include "calibrate/export/conversions.h"
-#include "calibrate/export/targets.h"
+#include "calibrate/export/target_entry.h"
+#include "dem/contact/restitution.h"
 #include "dem/experiment/drop.h"
 #include "dem/experiment/experiment_table.h"
 #include "dem/experiment/model_setup.h"
@@ -191,14 +192,85 @@ void add_roll(const ExportFacts& facts, const Conversions& conversions,
   files.push_back({.name = "roll.lmp", .text = filled("lammps/roll.lmp", fields)});
 }
 
-}  // namespace
-
 std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {lammps_material_file(facts, conversions)};
   if (facts.has(dem::experiment_of<dem::DropProtocol>())) add_drop(facts, files);
   if (facts.has(dem::experiment_of<dem::TiltProtocol>())) add_tilt(facts, files);
   if (facts.has(dem::experiment_of<dem::RollProtocol>())) add_roll(facts, conversions, files);
   return files;
+}
+
+/// The polynomial by which LAMMPS turns a restitution into the factor of its `damping tsuji`
+/// (LAMMPS documentation, "pair_style granular", eq. for alpha); falls with `value` below 1.
+double tsuji_polynomial(double value) {
+  double sum = 0;
+  for (const double term : {4.8218, -18.022, 27.467, -22.348, 11.087, -4.2783, 1.2728}) {
+    sum = sum * value + term;
+  }
+  return sum;
+}
+
+/// Where it takes a value, 0 to 6 (restitution from .01 on): by halving.
+double tsuji_value(double factor) {
+  double low = -1;
+  double high = 1;
+  constexpr int kHalvings = 60;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = .5 * (low + high);
+    (tsuji_polynomial(middle) > factor ? low : high) = middle;
+  }
+  return .5 * (low + high);
+}
+
+std::string lammps_program(dem::RollingModel /*model*/) {
+  return "LAMMPS of 29 September 2021, with the packages GRANULAR and RIGID";
+}
+
+RestitutionCounterpart lammps_restitution(double ours) {
+  return {
+      .name = "damping tsuji",
+      .value = tsuji_value(std::sqrt(1.5) * dem::textbook_damping_factor(ours)),
+      .fidelity = Fidelity::exact,
+      .law = "damper p(value) sqrt(2/3 S_n m*), p a polynomial of degree 6; it may pull",
+      .limits =
+          "The value is that for which p is the textbook factor times sqrt(3/2), and may be "
+          "below 0. Spheres of a clump that land at once lose a different fraction of the speed "
+          "from ours."};
+}
+
+std::string lammps_rolling_law(dem::RollingModel /*model*/) {
+  return "rolling sds: spring, up to mu_r F R*, against the relative rotation, F without the "
+         "damper's part";
+}
+
+RollingConversion lammps_rolling(dem::RollingModel model, Partner partner,
+                                 const dem::ClumpShape& grain) {
+  RollingConversion converted = to_relative_spin(model, partner, grain, 1);
+  limit_to_fixed_spring(converted);
+  return converted;
+}
+
+bool lammps_has_deck(const dem::Protocol& protocol) {
+  return is_one_of<dem::DropProtocol, dem::TiltProtocol, dem::RollProtocol>(protocol);
+}
+
+}  // namespace
+
+ExportTarget lammps_target() {
+  static constexpr TargetEntry kTarget{.name = "lammps",
+                                       .summary = "decks for drop, tilt and roll",
+                                       .has_tables = false,
+                                       .takes_incline_material = true,
+                                       .program = lammps_program,
+                                       .restitution = lammps_restitution,
+                                       .sliding_name = "tangential mindlin_rescale, last value",
+                                       .sliding_limits = "",
+                                       .rolling_name = "rolling sds, last value",
+                                       .rolling_law = lammps_rolling_law,
+                                       .rolling = lammps_rolling,
+                                       .has_deck = lammps_has_deck,
+                                       .files = lammps_files};
+  return &kTarget;
 }
 
 }  // namespace repose::calibrate

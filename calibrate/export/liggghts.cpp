@@ -8,12 +8,16 @@
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/liggghts_decks.h"
 #include "calibrate/export/stl.h"
-#include "calibrate/export/targets.h"
+#include "calibrate/export/target_entry.h"
+#include "dem/experiment/draw_down.h"
 #include "dem/experiment/drop.h"
 #include "dem/experiment/experiment_table.h"
+#include "dem/experiment/fill.h"
 #include "dem/experiment/heap.h"
+#include "dem/experiment/pendulum.h"
 #include "dem/experiment/roll.h"
 #include "dem/experiment/tilt.h"
+#include "dem/experiment/tilt_on_grains.h"
 
 namespace repose::calibrate {
 namespace {
@@ -212,8 +216,6 @@ ExportedFile heap_file(const ExportFacts& facts) {
   return {.name = "heap.lig", .text = filled("liggghts/heap.lig", fields)};
 }
 
-}  // namespace
-
 std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {material_file(facts, conversions),
                                      grain_file(facts),
@@ -245,6 +247,81 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
     files.insert(files.end(), more.begin(), more.end());
   }
   return files;
+}
+
+std::string liggghts_program(dem::RollingModel /*model*/) { return "LIGGGHTS-PUBLIC 3.8"; }
+
+RestitutionCounterpart liggghts_restitution(double ours) {
+  constexpr double kLeast = .0501;  // it takes what is above .05 only
+  RestitutionCounterpart theirs{
+      .name = "coefficientRestitution",
+      .value = std::max(ours, kLeast),
+      .fidelity = Fidelity::exact,
+      .law = "speed after per speed before a central impact",
+      .limits =
+          "The damper may pull and has the textbook factor, which then gives the same rebound of a "
+          "sphere. Spheres of a clump that land at once lose a different fraction of the speed "
+          "from "
+          "ours."};
+  if (theirs.value > ours) {
+    theirs.fidelity = Fidelity::approximate;
+    theirs.limits = "LIGGGHTS accepts only values above .05.";
+  }
+  return theirs;
+}
+
+std::string liggghts_rolling_law(dem::RollingModel model) {
+  if (model == dem::RollingModel::none) return "no rolling model";
+  return model == dem::RollingModel::elastic_plastic
+             ? "epsd: rolling spring, up to mu_r F R*, against the relative rotation"
+             : "cdt: mu_r F R* against the relative spin, F without the damper's part";
+}
+
+RollingConversion liggghts_rolling(dem::RollingModel model, Partner partner,
+                                   const dem::ClumpShape& grain) {
+  RollingConversion converted = to_relative_spin(model, partner, grain, 1);
+  if (model == dem::RollingModel::relative_constant_torque) {
+    converted.limits +=
+        "Theirs trembles about rest, and lets what it should hold creep, the slower the shorter "
+        "the time step; ours holds it. ";
+  } else if (model == dem::RollingModel::constant_torque) {
+    converted.limits +=
+        "Theirs leaves out spin about the contact's normal, and trembles about rest where ours "
+        "stops dead. ";
+  }
+  return converted;
+}
+
+bool liggghts_has_deck(const dem::Protocol& protocol) {
+  if (is_one_of<dem::FillProtocol>(protocol)) {
+    const auto& fill = protocol.as<dem::FillProtocol>();
+    return !fill.taps && !fill.pour_kg_s;
+  }
+  return is_one_of<dem::DropProtocol, dem::TiltProtocol, dem::RollProtocol, dem::HeapProtocol,
+                   dem::GrainDropProtocol, dem::GrainTiltProtocol, dem::GrainRollProtocol,
+                   dem::PendulumProtocol, dem::DrawDownProtocol>(protocol);
+}
+
+}  // namespace
+
+ExportTarget liggghts_target() {
+  static constexpr TargetEntry kTarget{
+      .name = "liggghts",
+      .summary = "decks for all experiments but fills that are tapped",
+      .has_tables = false,
+      .takes_incline_material = true,
+      .program = liggghts_program,
+      .restitution = liggghts_restitution,
+      .sliding_name = "coefficientFriction",
+      .sliding_limits =
+          "Their spring keeps its force when the contact unloads, ours shrinks with the contact: "
+          "oblique impacts cause slightly more spin.",
+      .rolling_name = "coefficientRollingFriction",
+      .rolling_law = liggghts_rolling_law,
+      .rolling = liggghts_rolling,
+      .has_deck = liggghts_has_deck,
+      .files = liggghts_files};
+  return &kTarget;
 }
 
 }  // namespace repose::calibrate

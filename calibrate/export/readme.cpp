@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "calibrate/export/targets.h"
+#include "calibrate/export/target_entry.h"
 #include "dem/contact/model_names.h"
 #include "dem/experiment/drop.h"
 #include "dem/experiment/experiment_table.h"
@@ -10,21 +10,6 @@
 
 namespace repose::calibrate {
 namespace {
-
-/// As its makers write it, and the version that the decks are written for.
-std::string program_of(ExportTarget target, dem::RollingModel rolling) {
-  switch (target) {
-    case ExportTarget::liggghts:
-      return "LIGGGHTS-PUBLIC 3.8";
-    case ExportTarget::lammps:
-      return "LAMMPS of 29 September 2021, with the packages GRANULAR and RIGID";
-    case ExportTarget::yade:
-      return "YADE 2023.02";
-    case ExportTarget::edem:
-      break;
-  }
-  return fmt::format("EDEM: Hertz-Mindlin (no slip), {}", edem_rolling_name(rolling));
-}
 
 /// A text of the target's own, without its last line break.
 std::string text_of(ExportTarget target, const char* name) {
@@ -64,7 +49,7 @@ void add_left_out(const ExportFacts& facts, ExportTarget target, DeckFields& fie
   for (const dem::Experiment experiment : facts.left_out()) {
     names += (names.empty() ? "" : ", ") + name_of(experiment);
   }
-  if (has_low_drop(facts) && target != ExportTarget::edem) {
+  if (has_low_drop(facts) && !target->has_tables) {
     names += fmt::format("{}drop from low_height_mm", names.empty() ? "" : ", ");
   }
   if (!names.empty()) fields.add_section("LEFT_OUT").set("NAMES", names);
@@ -83,9 +68,8 @@ void add_sizes(const ExportFacts& facts, ExportTarget target, DeckFields& fields
   if (percent == 0) return;
   DeckFields& sizes = fields.add_section("SIZES");
   sizes.set("PERCENT", percent);
-  sizes.set("INSTEAD", target == ExportTarget::edem
-                           ? "Choose a normal size distribution with this deviation."
-                           : "The grains of these decks all have the mean size.");
+  sizes.set("INSTEAD", target->has_tables ? "Choose a normal size distribution with this deviation."
+                                          : "The grains of these decks all have the mean size.");
 }
 
 /// All of them, in our definitions.
@@ -114,7 +98,7 @@ ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
   const ExportTarget target = request.target;
   DeckFields fields = common_fields(facts);
   add_sets(facts, request, sets, fields);
-  fields.set("TARGET", program_of(target, facts.study().model.rolling));
+  fields.set("TARGET", target->program(facts.study().model.rolling));
   fields.set("ROLLING_MODEL", dem::name_of(facts.study().model.rolling));
   fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
   fields.set("HEAP_STIFFNESS", heap_stiffness_text(facts));

@@ -30,14 +30,25 @@ struct RollingConversion {
   std::string limits = {};
 };
 
-/// Our models: dem/THEORY.md, "Rolling resistance". Theirs: `rolling_law`. With F the normal force,
-/// R the radius of the touching sphere, r the distance from the centre of mass to the contact and
-/// R* = R1 R2 / (R1 + R2), the coefficients are such that the torques while rolling are the same.
+/// Our models: dem/THEORY.md, "Rolling resistance". Theirs: TargetEntry::rolling_law. With F the
+/// normal force, R the radius of the touching sphere, r the distance from the centre of mass to the
+/// contact and R* = R1 R2 / (R1 + R2), the coefficients are such that the torques while rolling are
+/// the same.
 RollingConversion convert_rolling(ExportTarget target, dem::RollingModel model, Partner partner,
                                   const dem::ClumpShape& grain);
 
-/// Our definition, and the target's for grains of the model, each a sentence.
+/// Our definition, a sentence.
 std::string rolling_law(dem::RollingModel model);
-std::string rolling_law(ExportTarget target, dem::RollingModel model);
+
+/// To a torque against the relative spin with a lever, which is R on a wall, and between two equal
+/// spheres `grain_lever` times R* = R / 2.
+RollingConversion to_relative_spin(dem::RollingModel model, Partner partner,
+                                   const dem::ClumpShape& grain, double grain_lever);
+
+/// Adds what differs where theirs comes from a spring of fixed stiffness.
+void limit_to_fixed_spring(RollingConversion& converted);
+
+/// All spheres of the clump are equally large.
+bool has_equal_radii(const dem::ClumpShape& grain);
 
 }  // namespace repose::calibrate

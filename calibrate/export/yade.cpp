@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/rolling.h"
-#include "calibrate/export/targets.h"
+#include "calibrate/export/target_entry.h"
 #include "dem/contact/restitution.h"
 #include "dem/experiment/drop.h"
 #include "dem/experiment/experiment_table.h"
@@ -162,8 +162,6 @@ ExportedFile yade_heap_file(const ExportFacts& facts) {
   return {.name = "heap.py", .text = filled("yade/heap.py", fields)};
 }
 
-}  // namespace
-
 std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions& conversions) {
   std::vector<ExportedFile> files = {yade_grain_file(facts, conversions)};
   if (facts.has(dem::experiment_of<dem::DropProtocol>())) files.push_back(yade_drop_file(facts));
@@ -172,6 +170,63 @@ std::vector<ExportedFile> yade_files(const ExportFacts& facts, const Conversions
     files.push_back(yade_roll_file(facts));
   if (facts.has(dem::experiment_of<dem::HeapProtocol>())) files.push_back(yade_heap_file(facts));
   return files;
+}
+
+std::string yade_program(dem::RollingModel /*model*/) { return "YADE 2023.02"; }
+
+RestitutionCounterpart yade_restitution(double ours) {
+  return {.name = "betan",
+          .value = dem::damping_factor(ours) / 2,
+          .fidelity = Fidelity::exact,
+          .law = "damper 2 betan sqrt(S_n m*), which never pulls: betan is half of our factor c(e)",
+          .limits = "A clump's spheres are given the clump's mass, which YADE uses for damping."};
+}
+
+std::string yade_rolling_law(dem::RollingModel /*model*/) {
+  return "includeMoment: bending spring krot, up to eta F (R1 + R2) / 2, against the relative "
+         "rotation; a wall counts with the sphere's radius";
+}
+
+RollingConversion yade_rolling(dem::RollingModel model, Partner partner,
+                               const dem::ClumpShape& grain) {
+  constexpr double kMeanOfRadii = 2;  // R, of two equal spheres, in R*
+  RollingConversion converted = to_relative_spin(model, partner, grain, kMeanOfRadii);
+  const bool is_own_spin = model == dem::RollingModel::constant_torque;
+  if (!is_own_spin && partner == Partner::grain && !has_equal_radii(grain)) {
+    converted.fidelity = Fidelity::approximate;
+    converted.limits =
+        "Their lever is the mean of both radii, ours R*: the factor is that of equal radii, and "
+        "the grain's spheres differ. ";
+  }
+  limit_to_fixed_spring(converted);
+  return converted;
+}
+
+bool yade_has_deck(const dem::Protocol& protocol) {
+  return is_one_of<dem::DropProtocol, dem::TiltProtocol, dem::RollProtocol, dem::HeapProtocol>(
+      protocol);
+}
+
+}  // namespace
+
+ExportTarget yade_target() {
+  static constexpr TargetEntry kTarget{
+      .name = "yade",
+      .summary = "scripts for drop, tilt, roll and heap",
+      .has_tables = false,
+      .takes_incline_material = false,  // its contacts all have one rolling friction
+      .program = yade_program,
+      .restitution = yade_restitution,
+      .sliding_name = "frictAngle, its tangent",
+      .sliding_limits =
+          "Their spring keeps its force when the contact unloads, ours shrinks with the contact: "
+          "oblique impacts cause slightly more spin.",
+      .rolling_name = "eta",
+      .rolling_law = yade_rolling_law,
+      .rolling = yade_rolling,
+      .has_deck = yade_has_deck,
+      .files = yade_files};
+  return &kTarget;
 }
 
 }  // namespace repose::calibrate

@@ -41,8 +41,8 @@ struct ExportPlan {
 
 std::string known_targets() {
   std::string names;
-  for (const auto& [target, name] : calibrate::kExportTargets) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+  for (const calibrate::ExportTarget target : calibrate::export_targets()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", name_of(target));
   }
   return names;
 }
@@ -73,8 +73,8 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
 
 ExportPlan plan_export(const ExportArguments& arguments) {
   ExportPlan plan;
-  const auto target = calibrate::export_target_named(arguments.target);
-  if (!target) {
+  const calibrate::ExportTarget target = calibrate::export_target_named(arguments.target);
+  if (target == nullptr) {
     plan.errors.push_back(fmt::format("--to {}: must be one of {}. Fix: --to liggghts.",
                                       arguments.target, known_targets()));
   }
@@ -84,8 +84,8 @@ ExportPlan plan_export(const ExportArguments& arguments) {
     read.push_back(fs::path(arguments.folder) / name);
   }
   check_output_places({json_place(arguments.json_file, "\"conversions\"")}, read, plan.errors);
-  plan.request = {.target = target.value_or(calibrate::ExportTarget::liggghts),
-                  .takes_approximate = arguments.takes_approximate || !target};
+  plan.request = {.target = target != nullptr ? target : calibrate::liggghts_target(),
+                  .takes_approximate = arguments.takes_approximate || target == nullptr};
   constexpr int kMaxSets = 1000;
   if (const auto number = read_whole_number({"--set-number", arguments.set_number, plan.errors}, 1,
                                             kMaxSets, "leave it out for the best set, number 1")) {
@@ -174,11 +174,7 @@ deck for each experiment are written to FOLDER/export/PROGRAM, with a README.txt
 that gives both programs' definitions of each coefficient.
 
 Programs:
-  liggghts    decks for all experiments but fills that are tapped
-  yade        scripts for drop, tilt, roll and heap
-  lammps      decks for drop, tilt and roll
-  edem        tables to type in
-
+{}
 Rolling friction is defined differently in each. A coefficient with an exact or
 nearly exact counterpart is converted. If the law differs, the export is refused
 with the reason; --approximate writes the value that is equivalent on average.
@@ -190,6 +186,14 @@ the values of one set together.
 Example:
   repose export hazelnut --to yade --approximate
 )";
+
+std::string export_notes() {
+  std::string programs;
+  for (const calibrate::ExportTarget target : calibrate::export_targets()) {
+    programs += fmt::format("  {:<12}{}\n", name_of(target), summary_of(target));
+  }
+  return fmt::format(kExportNotes, programs);
+}
 
 }  // namespace
 
@@ -205,7 +209,7 @@ Command export_command() {
                    &given->set_number},
                   {"--out", "FOLDER", "Output folder (FOLDER/export/PROGRAM)", &given->out_folder},
                   {"--json", "FILE|-", "Files and conversions, for programs", &given->json_file}},
-      .notes = kExportNotes,
+      .notes = export_notes(),
       .missing =
           "a study's folder and a program are needed. Fix: repose export FOLDER --to liggghts.",
       .run = [given] { return run_export(*given); }};

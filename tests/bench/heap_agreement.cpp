@@ -74,7 +74,7 @@ Heap their_heap(const calibrate::StudyExport& decks, calibrate::ExportTarget tar
   const testing::TemporaryFolder folder;
   calibrate::write_export(folder.path(), decks.files);
   std::vector<dem::ClumpSphere> spheres;
-  if (target == calibrate::ExportTarget::yade) {
+  if (target == calibrate::yade_target()) {
     testing::run_deck(folder, target, "heap", {std::to_string(number + 1)});
     spheres = spheres_in(folder.path() / "heap.txt", 0, 0);
   } else {
@@ -122,7 +122,7 @@ struct HeapAgreement {
 
 void compare_heaps(const HeapAgreement& wanted) {
   const std::string& program = wanted.program;
-  const calibrate::ExportTarget target = *calibrate::export_target_named(program);
+  const calibrate::ExportTarget target = calibrate::export_target_named(program);
   if (!testing::has_program_for(target)) {
     throw std::invalid_argument(
         fmt::format("{0} is not installed. Fix: apt-get install {0}", program));

@@ -73,7 +73,7 @@ double time_theirs(const calibrate::StudyExport& decks, double after_fill_s) {
     const bool is_heap = file.name == "heap.lig";
     folder.write(file.name, is_heap ? in_longer_steps(file.text, after_fill_s) : file.text);
   }
-  const double theirs_s = testing::run_deck(folder, ExportTarget::liggghts, "heap").cpu_s;
+  const double theirs_s = testing::run_deck(folder, calibrate::liggghts_target(), "heap").cpu_s;
   if (!std::filesystem::exists(folder.path() / "heap.dump")) {
     throw std::runtime_error("LIGGGHTS ended before its heap was written");
   }
@@ -93,7 +93,7 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
   const auto protocol = study.protocol<dem::HeapProtocol>();
   const calibrate::StudyExport decks =
       calibrate::export_study(study, model.grain, values_of(study),
-                              {.target = ExportTarget::liggghts, .takes_approximate = true});
+                              {.target = calibrate::liggghts_target(), .takes_approximate = true});
   HeapTimes times;
   for (int round = 0; round < rounds; ++round) {
     const double start = cpu_s();
@@ -104,7 +104,7 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
                   [](double /*fraction*/) { return true; });
     times.views_s.push_back(cpu_s() - done);
     times.grains = static_cast<int>(ours.readings.at("grains"));
-    if (testing::has_program_for(ExportTarget::liggghts)) {
+    if (testing::has_program_for(calibrate::liggghts_target())) {
       times.theirs_s.push_back(time_theirs(decks, ours.readings.at("time_s")));
     }
   }

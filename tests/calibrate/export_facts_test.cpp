@@ -31,14 +31,14 @@ dem::Study hazelnuts_to_fit() {
 
 std::string facts_error(const dem::Study& study, const std::vector<FittedValue>& fitted) {
   return error_of(
-      [&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted, ExportTarget::liggghts); });
+      [&] { ExportFacts(study, dem::test::spheroid_clump(3), fitted, liggghts_target()); });
 }
 
 constexpr const char* kRestitution = "contact.particle_wall.restitution";
 
 TEST(ExportFacts, TakeTheFittedValues) {
   const ExportFacts facts(hazelnuts_to_fit(), dem::test::spheroid_clump(3),
-                          {{.name = kRestitution, .value = .42}}, ExportTarget::liggghts);
+                          {{.name = kRestitution, .value = .42}}, liggghts_target());
   EXPECT_EQ(facts.study().model.grain_wall.restitution, .42);
   EXPECT_EQ(facts.study().model.grain_wall.sliding_friction, .39);
 }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/export/rolling.h"
+#include "calibrate/export/target_entry.h"
 #include "tests/dem/experiment_model.h"
 
 namespace repose::calibrate {
@@ -44,7 +45,7 @@ TEST(ConvertRolling, LiggghtsHasTwoOfOurModels) {
     for (const RollingModel model :
          {RollingModel::relative_constant_torque, RollingModel::elastic_plastic}) {
       for (const dem::ClumpShape& grain : {kSphere, dem::test::spheroid_clump(3)}) {
-        const auto converted = convert_rolling(ExportTarget::liggghts, model, partner, grain);
+        const auto converted = convert_rolling(liggghts_target(), model, partner, grain);
         EXPECT_EQ(converted.factor, 1);
         EXPECT_EQ(converted.fidelity, Fidelity::exact);
       }
@@ -53,10 +54,10 @@ TEST(ConvertRolling, LiggghtsHasTwoOfOurModels) {
 }
 
 TEST(ConvertRolling, ConstantTorqueIsLiggghtssOnAWallAndDoubleBetweenSpheres) {
-  const auto wall = sphere(ExportTarget::liggghts, RollingModel::constant_torque, Partner::wall);
+  const auto wall = sphere(liggghts_target(), RollingModel::constant_torque, Partner::wall);
   EXPECT_NEAR(wall.factor, 1, 1e-12);
   EXPECT_EQ(wall.fidelity, Fidelity::exact);
-  const auto grain = sphere(ExportTarget::liggghts, RollingModel::constant_torque, Partner::grain);
+  const auto grain = sphere(liggghts_target(), RollingModel::constant_torque, Partner::grain);
   EXPECT_NEAR(grain.factor, 2, 1e-12);
   EXPECT_EQ(grain.fidelity, Fidelity::approximate);
   EXPECT_THAT(grain.limits, ::testing::HasSubstr("own spin"));
@@ -65,7 +66,7 @@ TEST(ConvertRolling, ConstantTorqueIsLiggghtssOnAWallAndDoubleBetweenSpheres) {
 TEST(ConvertRolling, OwnSpinOfAClumpIsApproximate) {
   const dem::ClumpShape clump = dem::test::spheroid_clump(3);
   const auto wall =
-      convert_rolling(ExportTarget::liggghts, RollingModel::constant_torque, Partner::wall, clump);
+      convert_rolling(liggghts_target(), RollingModel::constant_torque, Partner::wall, clump);
   EXPECT_EQ(wall.fidelity, Fidelity::approximate);
   EXPECT_NEAR(wall.factor, arm_ratio(clump, Partner::wall).mean, 1e-12);
   EXPECT_THAT(wall.limits, ::testing::HasSubstr("lever"));
@@ -80,24 +81,22 @@ TEST(ConvertRolling, EdemHasAllThreeOfOurModels) {
       for (const RollingModel model :
            {RollingModel::constant_torque, RollingModel::relative_constant_torque,
             RollingModel::elastic_plastic}) {
-        const auto converted = convert_rolling(ExportTarget::edem, model, partner, grain);
+        const auto converted = convert_rolling(edem_target(), model, partner, grain);
         EXPECT_EQ(converted.factor, 1);
         EXPECT_NE(converted.fidelity, Fidelity::approximate);
       }
     }
   }
   const auto edem = [](RollingModel model, Partner partner) {
-    return sphere(ExportTarget::edem, model, partner);
+    return sphere(edem_target(), model, partner);
   };
   EXPECT_EQ(edem(RollingModel::relative_constant_torque, Partner::wall).fidelity, Fidelity::exact);
   EXPECT_THAT(edem(RollingModel::relative_constant_torque, Partner::grain).limits,
               HasSubstr("half the sum of both spins"));
   EXPECT_EQ(edem(RollingModel::elastic_plastic, Partner::wall).fidelity, Fidelity::close);
-  EXPECT_THAT(rolling_law(ExportTarget::edem, RollingModel::constant_torque),
-              HasSubstr("standard"));
-  EXPECT_THAT(rolling_law(ExportTarget::edem, RollingModel::relative_constant_torque),
-              HasSubstr("RVD"));
-  EXPECT_THAT(rolling_law(ExportTarget::edem, RollingModel::elastic_plastic), HasSubstr("Type C"));
+  EXPECT_THAT(edem_target()->rolling_law(RollingModel::constant_torque), HasSubstr("standard"));
+  EXPECT_THAT(edem_target()->rolling_law(RollingModel::relative_constant_torque), HasSubstr("RVD"));
+  EXPECT_THAT(edem_target()->rolling_law(RollingModel::elastic_plastic), HasSubstr("Type C"));
 }
 
 // YADE's lever of mu_r F is (R1 + R2) / 2; ours R* = R on a wall, R / 2 between equal spheres.
@@ -105,24 +104,24 @@ TEST(ConvertRolling, LeversOfOtherProgramsAreTakenOut) {
   const auto factor = [](ExportTarget target, Partner partner) {
     return sphere(target, RollingModel::elastic_plastic, partner).factor;
   };
-  EXPECT_NEAR(factor(ExportTarget::yade, Partner::wall), 1, 1e-12);
-  EXPECT_NEAR(factor(ExportTarget::yade, Partner::grain), .5, 1e-12);
-  EXPECT_NEAR(factor(ExportTarget::lammps, Partner::grain), 1, 1e-12);
+  EXPECT_NEAR(factor(yade_target(), Partner::wall), 1, 1e-12);
+  EXPECT_NEAR(factor(yade_target(), Partner::grain), .5, 1e-12);
+  EXPECT_NEAR(factor(lammps_target(), Partner::grain), 1, 1e-12);
 }
 
 TEST(ConvertRolling, SpringsThatYieldAreCloseAndUnequalRadiiAreNot) {
-  const auto wall = sphere(ExportTarget::yade, RollingModel::elastic_plastic, Partner::wall);
+  const auto wall = sphere(yade_target(), RollingModel::elastic_plastic, Partner::wall);
   EXPECT_EQ(wall.fidelity, Fidelity::close);
-  const auto clump = convert_rolling(ExportTarget::yade, RollingModel::elastic_plastic,
-                                     Partner::grain, dem::test::spheroid_clump(3));
+  const auto clump = convert_rolling(yade_target(), RollingModel::elastic_plastic, Partner::grain,
+                                     dem::test::spheroid_clump(3));
   EXPECT_EQ(clump.fidelity, Fidelity::approximate);
 }
 
 TEST(ConvertRolling, WithoutAModelNothingIsConverted) {
-  for (const auto& [target, name] : kExportTargets) {
+  for (const ExportTarget target : export_targets()) {
     const auto none = convert_rolling(target, RollingModel::none, Partner::grain, kSphere);
-    EXPECT_EQ(none.fidelity, Fidelity::exact) << name;
-    EXPECT_EQ(none.factor, 1) << name;
+    EXPECT_EQ(none.fidelity, Fidelity::exact) << name_of(target);
+    EXPECT_EQ(none.factor, 1) << name_of(target);
   }
 }
 

@@ -65,7 +65,7 @@ void require_same_deck(const ExportedFile& file, const ExportedFile& harmless) {
 
 /// The bytes are the names of a study, its grain and its wall, and a verdict of its result.
 void read_names(Bytes bytes) {
-  for (const auto& [target, word] : calibrate::kExportTargets) {
+  for (const calibrate::ExportTarget target : calibrate::export_targets()) {
     const std::vector<ExportedFile> decks = decks_called(text_of(bytes), target);
     const std::vector<ExportedFile> harmless = decks_called("name", target);
     if (decks.size() != harmless.size()) throw std::logic_error("a name makes a file");

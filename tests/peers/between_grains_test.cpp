@@ -55,7 +55,7 @@ double our_swing_deg(const dem::Study& study, const dem::ClumpShape& grain) {
 }
 
 double their_swing_deg(const dem::Study& study, const dem::ClumpShape& grain) {
-  return reading_of(study, grain, ExportTarget::liggghts, "pendulum", "swing_deg");
+  return reading_of(study, grain, calibrate::liggghts_target(), "pendulum", "swing_deg");
 }
 
 // e = 2 sin(a / 2) / sin(b / 2) - 1 of a swing of a after a release at b. Low values come out some
@@ -92,7 +92,7 @@ void expect_filled_alike(const dem::FillProtocol& tube, const dem::ClumpShape& g
   study.experiments[dem::experiment_of<dem::FillProtocol>()].stiffness_factor = .2;
   const double ours = our_bulk_density(study, grain);
   const double theirs =
-      reading_of(study, grain, ExportTarget::liggghts, "fill", "bulk_density_kg_m3");
+      reading_of(study, grain, calibrate::liggghts_target(), "fill", "bulk_density_kg_m3");
   EXPECT_NEAR(theirs, ours, .07 * ours);
 }
 
@@ -121,7 +121,7 @@ DrawDowns draw_downs_of(const dem::DrawDownProtocol& boxes, const dem::ClumpShap
   DrawDowns means;
   for (std::size_t k = 0; k < seeds.size(); ++k) {
     means.ours_percent += run_draw_down(model_of(study, grain), boxes, k + 1).value.value() / runs;
-    means.theirs_percent += reading_of(study, grain, ExportTarget::liggghts, "draw_down",
+    means.theirs_percent += reading_of(study, grain, calibrate::liggghts_target(), "draw_down",
                                        "discharged_percent", {"-var", "seed", seeds[k]}) /
                             runs;
   }
@@ -156,7 +156,7 @@ void expect_rebound_alike(const dem::ClumpShape& grain, double limit) {
   const double ours =
       run_drop_on_grains(model_of(study, grain), protocol, study.seed).value.value();
   const double theirs =
-      rebound_mm_of(study, grain, ExportTarget::liggghts, "drop_on_grains", protocol.grains);
+      rebound_mm_of(study, grain, calibrate::liggghts_target(), "drop_on_grains", protocol.grains);
   EXPECT_NEAR(theirs, ours, limit * ours);
 }
 
@@ -176,7 +176,7 @@ constexpr double kLeave_deg = 2;
 void expect_rows_leave_alike(const dem::ClumpShape& grain) {
   const dem::GrainTiltProtocol row{.rate_deg_s = kRate_deg_s, .places = kPlaces};
   const dem::Study study = study_of(row, .5);
-  EXPECT_NEAR(reading_of(study, grain, ExportTarget::liggghts, "tilt_on_grains", "angle_deg"),
+  EXPECT_NEAR(reading_of(study, grain, calibrate::liggghts_target(), "tilt_on_grains", "angle_deg"),
               run_tilt_on_grains(model_of(study, grain), row, study.seed).value.value(),
               kLeave_deg);
 }
@@ -184,7 +184,7 @@ void expect_rows_leave_alike(const dem::ClumpShape& grain) {
 void expect_grains_leave_alike(const dem::ClumpShape& grain) {
   const dem::GrainRollProtocol single{.rate_deg_s = kRate_deg_s, .places = kPlaces};
   const dem::Study study = study_of(single, .5);
-  EXPECT_NEAR(reading_of(study, grain, ExportTarget::liggghts, "roll_on_grains", "angle_deg"),
+  EXPECT_NEAR(reading_of(study, grain, calibrate::liggghts_target(), "roll_on_grains", "angle_deg"),
               run_roll_on_grains(model_of(study, grain), single, study.seed).value.value(),
               kLeave_deg);
 }

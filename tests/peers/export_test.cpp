@@ -39,7 +39,7 @@ class Export : public ::testing::TestWithParam<ExportTarget> {
 };
 
 /// In LAMMPS and YADE rolling friction comes from a spring that is too soft for impacts to wind up.
-bool has_soft_rolling_spring(ExportTarget target) { return target != ExportTarget::liggghts; }
+bool has_soft_rolling_spring(ExportTarget target) { return target != calibrate::liggghts_target(); }
 
 // A damper that may pull returns a little more than ours of an impact with gravity on: 1 % of the
 // height. The angle of tilt is looked up every .02 degrees, after the slip.
@@ -75,8 +75,8 @@ TEST_P(Export, LowRestitutionComesOut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, Export,
-                         ::testing::Values(ExportTarget::liggghts, ExportTarget::lammps,
-                                           ExportTarget::yade),
+                         ::testing::Values(calibrate::liggghts_target(), calibrate::lammps_target(),
+                                           calibrate::yade_target()),
                          [](const auto& each) { return name_of(each.param); });
 
 }  // namespace

@@ -24,16 +24,9 @@ struct Program {
 };
 
 Program program_of(ExportTarget target) {
-  switch (target) {
-    case ExportTarget::liggghts:
-      return {"liggghts", ".lig"};
-    case ExportTarget::lammps:
-      return {"lmp", ".lmp"};
-    case ExportTarget::yade:
-      return {"yade", ".py"};
-    case ExportTarget::edem:
-      break;
-  }
+  if (target == calibrate::liggghts_target()) return {"liggghts", ".lig"};
+  if (target == calibrate::lammps_target()) return {"lmp", ".lmp"};
+  if (target == calibrate::yade_target()) return {"yade", ".py"};
   throw std::invalid_argument("there is no program to run this export");
 }
 
@@ -98,7 +91,7 @@ Finished run_deck(const TemporaryFolder& folder, ExportTarget target, const std:
   const Program program = program_of(target);
   const std::string file = deck + program.ending;
   std::vector<std::string> words = {"-in", file, "-log", "none"};
-  if (target == ExportTarget::yade) words = {"-n", "-x", "-j", "1", file};
+  if (target == calibrate::yade_target()) words = {"-n", "-x", "-j", "1", file};
   words.insert(words.end(), arguments.begin(), arguments.end());
   Finished done = run_program(program.name, folder, words);
   if (done.exit_code != 0) {
@@ -138,7 +131,7 @@ Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain, Expo
   write_decks(folder, study, grain, target);
   Readings readings;
   const std::string dropped = run_deck(folder, target, "drop").out;
-  readings.drop_mm = target == ExportTarget::yade
+  readings.drop_mm = target == calibrate::yade_target()
                          ? reading_in(dropped, "drop_mm")
                          : mean_rise_mm(folder, "drop", study.protocol<dem::DropProtocol>().grains);
   readings.tilt_deg = reading_in(run_deck(folder, target, "tilt").out, "half_mm_slip_deg");
@@ -164,7 +157,8 @@ double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain, Expo
 
 bool has_program_for(ExportTarget target) {
   const std::string name = program_of(target).name;
-  if (target == ExportTarget::yade) return run_program(name, {}, {"--version"}).exit_code == 0;
+  if (target == calibrate::yade_target())
+    return run_program(name, {}, {"--version"}).exit_code == 0;
   // LIGGGHTS knows no option that only tells its version: an empty deck ends at once.
   return run_program(name, {}, {"-in", "/dev/null", "-log", "none"}).exit_code == 0;
 }
