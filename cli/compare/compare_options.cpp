@@ -55,7 +55,7 @@ HeapSource folder_source(const std::string& name, std::vector<std::string>& erro
   if (source.states.empty()) {
     errors.push_back(fmt::format(
         "{}: no pictures and no simulated heaps in this folder. Fix: name a folder with "
-        ".jpg, .png, .tif, .bmp or .webp files in it, or one that repose simulate heap "
+        ".jpg, .heic, .png, .tif, .bmp or .webp files in it, or one that repose simulate heap "
         "--out or repose calibrate --out has written.",
         name));
   }

@@ -128,10 +128,10 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
 namespace {
 
 constexpr const char* kMeasureNotes = R"(
-PICTURE is a level side view: JPEG, PNG, TIFF, BMP or WebP; or a film of one by
-a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A folder stands for
-all pictures and films in it, except films that share a photo's name, as phones
-save both at once. FILE may be - for standard output.
+PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; or a film
+of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A folder
+stands for all pictures and films in it, except films that share a photo's name,
+as phones save both at once. FILE may be - for standard output.
 
 Films: the heap at rest is measured in the mean of the frames of the last second
 in which nothing moves. A heap that still moves when the film ends is refused:

@@ -94,16 +94,16 @@ namespace fs = std::filesystem;
 struct FileKind {
   std::string_view name;                        ///< "pictures"
   std::string_view done;                        ///< to one: "measured"
-  std::string_view usual;                       ///< ".jpg, .png, .tif, .bmp or .webp"
+  std::string_view usual;                       ///< ".jpg, .heic, .png, .tif, .bmp or .webp"
   std::span<const std::string_view> endings;    ///< all, small
   std::span<const std::string_view> more = {};  ///< likewise
 };
 
-constexpr std::array<std::string_view, 8> kPictureEndings{".jpg",  ".jpeg", ".png",  ".tif",
-                                                          ".tiff", ".bmp",  ".webp", ".heic"};
+constexpr std::array<std::string_view, 10> kPictureEndings{
+    ".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".webp", ".heic", ".heif", ".avif"};
 constexpr FileKind kPictures{.name = "pictures",
                              .done = "measured",
-                             .usual = ".jpg, .png, .tif, .bmp or .webp",
+                             .usual = ".jpg, .heic, .png, .tif, .bmp or .webp",
                              .endings = kPictureEndings};
 constexpr FileKind kFilms{.name = "films",
                           .done = "tracked",
@@ -112,7 +112,7 @@ constexpr FileKind kFilms{.name = "films",
 
 constexpr FileKind kBoth{.name = "pictures or films",
                          .done = "measured",
-                         .usual = ".jpg, .png, .tif, .bmp, .webp, .mp4, .mov or .avi",
+                         .usual = ".jpg, .heic, .png, .tif, .bmp, .webp, .mp4, .mov or .avi",
                          .endings = kPictureEndings,
                          .more = kFilmEndings};
 

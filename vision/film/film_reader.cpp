@@ -29,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 7> kEndings{".jpg",  ".jpeg", ".png", ".tif",
-                                                   ".tiff", ".bmp",  ".webp"};
+constexpr std::array<std::string_view, 8> kEndings{".jpg",  ".jpeg", ".png",  ".tif",
+                                                   ".tiff", ".bmp",  ".webp", ".heic"};
 
 [[noreturn]] void refuse_frames(const fs::path& folder, const std::string& what,
                                 const std::string& fix) {

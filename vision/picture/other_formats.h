@@ -17,6 +17,12 @@ Picture decode_bmp(std::span<const std::uint8_t> bytes);
 ///   large.
 Picture decode_webp(std::span<const std::uint8_t> bytes);
 
+/// Decodes the main picture of a HEIC, HEIF or AVIF file's content, upright. More than eight bits
+/// a colour become eight.
+/// @throws base::InputError  "what. Fix: ..." when it is damaged, cut short, too large or of a
+///   kind that is not read.
+Picture decode_heif(std::span<const std::uint8_t> bytes);
+
 /// Decodes the first page of a TIFF file's content, upright.
 ///
 /// OpenCV would do it too, but it prints to stderr when the file is damaged and knows no CMYK.

@@ -70,9 +70,7 @@ Picture decode(Bytes bytes) {
     case Format::webp:
       return decode_webp(bytes);
     case Format::heic:
-      throw base::InputError({.value = "is a HEIC or AVIF picture, which cannot be read",
-                              .fix = "convert it to JPEG, for example with heif-convert, or set "
-                                     "the telephone's camera to \"most compatible\"."});
+      return decode_heif(bytes);
     case Format::film:
       throw base::InputError({.value = "is a film, and a picture is needed here",
                               .fix = "name a picture of what it shows at rest; repose measure and "
@@ -80,8 +78,9 @@ Picture decode(Bytes bytes) {
     case Format::unknown:
       break;
   }
-  throw base::InputError({.value = "no picture: the content is none of JPEG, PNG, TIFF, BMP, WebP",
-                          .fix = "name a picture, or save it as JPEG or PNG."});
+  throw base::InputError(
+      {.value = "no picture: the content is none of JPEG, HEIC, PNG, TIFF, BMP, WebP",
+       .fix = "name a picture, or save it as JPEG or PNG."});
 }
 
 std::string lower_case_ending(const fs::path& file) {

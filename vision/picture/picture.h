@@ -41,7 +41,7 @@ struct Picture {
 /// More pixels than this are refused before any memory is asked for.
 inline constexpr std::int64_t kMaxPixels = 200'000'000;
 
-/// Reads a JPEG, PNG, TIFF, BMP or WebP file into upright 8-bit colour.
+/// Reads a JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP file into upright 8-bit colour.
 ///
 /// EXIF rotation is applied; grey, CMYK, 16-bit and transparent pictures are converted.
 /// @throws base::InputError  one line "FILE: what. Fix: ..." when the file is missing, empty,
