@@ -14,7 +14,7 @@ struct AngleDefinition {
 
 /// The one that is meant where none is named.
 inline constexpr AngleDefinition kUsualDefinition = {
-    "flank_20_80", "robust line at 20-80 % of the height, aprons left out"};
+    "flank_20_80", "robust line at 20-80 % of the height, aprons weighed"};
 
 /// Least squares are ordinary ones, of height on distance.
 inline constexpr std::array<AngleDefinition, 6> kAngleDefinitions = {

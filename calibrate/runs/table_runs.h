@@ -13,7 +13,7 @@ namespace repose::calibrate {
 /// What is in tables of runs.
 struct TableRuns {
   /// Of each reading by itself, which is its own experiment: a row gives a run of each that it has
-  /// a number of, or that failed.
+  /// a number of. Rows that failed are counted, and give none.
   std::vector<Run> runs;
   /// Columns of numbers that the study does not name, with their runs: what measuring them would
   /// tell is advised.

@@ -20,7 +20,7 @@
 namespace repose::vision {
 
 enum class Method {
-  automatic,  ///< candidate segmentations, ground line, apron and crest left out, robust line
+  automatic,  ///< candidate segmentations, ground line, crest left out, apron weighed, robust line
   paper,      ///< grey, Otsu, holes filled, edge, ordinary least squares on each side
 };
 
