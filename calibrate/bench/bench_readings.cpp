@@ -240,7 +240,8 @@ dem::Study with_pictures(dem::Study study, const std::vector<PictureReading>& pi
   const PictureSet set = set_of(pictures);
   if (!set.heaps_deg) return study;
   dem::Measured& measured = heap->second.measured;
-  measured.values = set.heap_deg;
+  measured.values.clear();
+  for (const HeapOfSet& heap : set.heaps) measured.values.push_back(heap.angle_deg);
   if (set.own_deg > 0) measured.value_uncertainty = set.own_deg / base::kNormal95;
   if (set.within_sd_deg) measured.within_heaps = {set.pictures, *set.within_sd_deg};
   if (!(set.camera_deg > 0)) return study;

@@ -66,24 +66,18 @@ struct MeasuredFile {
 };
 
 MeasuredFile measured_file(const fs::path& file, const std::string& definition) {
-  const vision::HeapInFile seen = vision::measure_heap_file(file);
+  vision::PictureSettings told;
+  told.measuring.definition = definition;
+  const vision::HeapInFile seen = vision::measure_heap_file(file, told);
   const vision::ReposeAngle& angle = seen.heap.angle;
   PictureReading reading{.file = fs::absolute(file),
                          .status = name_of(angle.status),
                          .angle_deg = {},
                          .reason = angle.reason};
-  const SetPicture picture = set_picture_of(angle, definition);
+  const SetPicture picture = set_picture_of(angle);
+  reading.angle_deg = picture.angle_deg;
   reading.own_deg = picture.own_deg;
   reading.camera_deg = picture.camera_deg;
-  if (picture.angle_deg) {
-    reading.angle_deg = picture.angle_deg;
-  } else if (angle.status != vision::MeasureStatus::refused) {
-    reading.status = name_of(vision::MeasureStatus::refused);
-    reading.reason = fmt::format(
-        "its angle cannot be measured by the definition {}: too little of the flank is seen. Fix: "
-        "take pictures in which the heap is larger and whole.",
-        definition);
-  }
   return {.file = file,
           .pixels = seen.is_film ? std::string() : vision::pixels_of(seen.picture),
           .reading = std::move(reading)};

@@ -72,22 +72,50 @@ void count_uncertainty_of(std::span<const SetPicture> pictures, const Heaps& hea
                           PictureSet& set) {
   double squares = 0;
   double freedom = 0;
+  double inverse = 0;
   double own2 = 0;
   double camera = 0;
   for (std::size_t k = 0; k < heaps.size(); ++k) {
     const auto count = static_cast<double>(heaps[k].size());
     for (const std::size_t i : heaps[k]) {
-      squares += std::pow(*pictures[i].angle_deg - set.heap_deg[k], 2);
+      squares += std::pow(*pictures[i].angle_deg - set.heaps[k].angle_deg, 2);
     }
     freedom += count - 1;
+    inverse += 1 / count;
     own2 += mean_over(heaps[k], [&](std::size_t i) { return std::pow(pictures[i].own_deg, 2); }) /
             count;
     camera += mean_over(heaps[k], [&](std::size_t i) { return pictures[i].camera_deg; });
   }
-  if (freedom > 0) set.within_sd_deg = std::sqrt(squares / freedom);
   if (heaps.empty()) return;
-  set.own_deg = std::sqrt(own2 / static_cast<double>(heaps.size()));
-  set.camera_deg = camera / static_cast<double>(heaps.size());
+  const auto all = static_cast<double>(heaps.size());
+  set.own_deg = std::sqrt(own2 / all);
+  set.camera_deg = camera / all;
+  if (freedom <= 0) return;
+  const double within2 = squares / freedom;
+  set.within_sd_deg = std::sqrt(within2);
+  if (set.heaps_deg->sd) {
+    const double between2 = std::pow(*set.heaps_deg->sd, 2) - within2 * inverse / all;
+    set.between_sd_deg = std::sqrt(std::max(0.0, between2));
+  }
+  for (HeapOfSet& heap : set.heaps) {
+    const double deviation = std::sqrt(within2 / heap.pictures);
+    heap.within_deg = base::student_t_quantile(.975, freedom) * deviation + set.camera_deg;
+  }
+}
+
+std::vector<HeapOfSet> described(std::span<const SetPicture> pictures, const Heaps& heaps) {
+  std::vector<HeapOfSet> all;
+  for (const auto& heap : heaps) {
+    std::vector<double> angles;
+    for (const std::size_t i : heap) angles.push_back(*pictures[i].angle_deg);
+    const Summary of_pictures = summarise(angles);
+    all.push_back({.name = pictures[heap.front()].heap,
+                   .pictures = of_pictures.n,
+                   .angle_deg = of_pictures.mean,
+                   .sd_deg = of_pictures.sd,
+                   .within_deg = {}});
+  }
+  return all;
 }
 
 void find_outliers(std::span<const SetPicture> pictures, PictureSet& set) {
@@ -122,12 +150,9 @@ vision::MeasureStatus picture_status_named(std::string_view name) {
   return vision::MeasureStatus::refused;
 }
 
-SetPicture set_picture_of(const vision::ReposeAngle& measured, std::string_view definition,
-                          const std::string& heap) {
+SetPicture set_picture_of(const vision::ReposeAngle& measured, const std::string& heap) {
   SetPicture picture{.status = measured.status, .angle_deg = {}, .heap = heap};
-  if (const auto angle_rad = vision::angle_by(measured, definition)) {
-    picture.angle_deg = to_degrees(*angle_rad);
-  }
+  if (measured.angle_rad) picture.angle_deg = to_degrees(*measured.angle_rad);
   picture.own_deg = to_degrees(measured.own_uncertainty_rad.value_or(0));
   picture.camera_deg = to_degrees(measured.camera_uncertainty_rad.value_or(0));
   return picture;
@@ -142,8 +167,8 @@ PictureSet set_of_pictures(std::span<const SetPicture> pictures) {
     });
   };
   const Heaps heaps = heaps_of(pictures, is_counted);
-  set.heap_deg = means_of(pictures, heaps);
-  set.heaps_deg = summary_of(set.heap_deg);
+  set.heaps = described(pictures, heaps);
+  set.heaps_deg = summary_of(means_of(pictures, heaps));
   count_uncertainty_of(pictures, heaps, set);
   set.all_deg =
       summary_of(means_of(pictures, heaps_of(pictures, [](std::size_t) { return true; })));

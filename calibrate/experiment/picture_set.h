@@ -25,9 +25,7 @@ struct SetPicture {
 /// By its name in JSON: "flagged"; of any other name, refused.
 vision::MeasureStatus picture_status_named(std::string_view name);
 
-/// By a definition of base/angle_definition.h; empty: by the usual one.
-SetPicture set_picture_of(const vision::ReposeAngle& measured, std::string_view definition = {},
-                          const std::string& heap = {});
+SetPicture set_picture_of(const vision::ReposeAngle& measured, const std::string& heap = {});
 
 /// A picture that is far from the others of its set.
 struct OutlyingPicture {
@@ -36,18 +34,30 @@ struct OutlyingPicture {
   bool is_counted = false;
 };
 
+/// A heap of a set by its pictures.
+struct HeapOfSet {
+  std::string name;  ///< empty: of a picture that names none
+  int pictures = 0;
+  double angle_deg = 0;              ///< their mean
+  std::optional<double> sd_deg;      ///< of single pictures; needs two
+  std::optional<double> within_deg;  ///< half-width of the mean's 95 % interval; see PictureSet
+};
+
 struct PictureSet {
   /// Heaps, each with the mean of its pictures: all that could be measured, but for flagged ones
   /// that are outliers. None where there are none.
   std::optional<Summary> heaps_deg;
   std::optional<Summary> all_deg;  ///< heaps of all that could be measured
   std::optional<Summary> ok_deg;   ///< heaps of those with the status ok
-  std::vector<double> heap_deg;    ///< the means that heaps_deg is of
+  std::vector<HeapOfSet> heaps;    ///< that heaps_deg is of
   int pictures = 0;                ///< that heaps_deg is of
   int flagged = 0;                 ///< of these
   int refused = 0;                 ///< or without an angle by the definition
   /// Of pictures of one heap, pooled over the heaps; none where each has one picture.
   std::optional<double> within_sd_deg;
+  /// Of the heaps themselves, without what their pictures scatter by; needs two heaps, and one of
+  /// them several pictures.
+  std::optional<double> between_sd_deg;
   /// Half-widths of 95 % intervals: of a heap's mean by its own pictures, in the root mean square,
   /// and of the mean of all by the camera.
   double own_deg = 0;
@@ -68,7 +78,19 @@ struct PictureSet {
 /// not. An outlier that is flagged is left out of the mean: the picture itself says that something
 /// is wrong with it, and the others, what. One that is ok counts. Simulated views have no wrong
 /// objects, and are means of all (heap_angle.h). Fully correlated errors have the mean of their
-/// uncertainties: JCGM 100:2008 (GUM), 5.2.2, note 1. Proved by PictureSet.* in tests/calibrate.
+/// uncertainties: JCGM 100:2008 (GUM), 5.2.2, note 1.
+///
+/// A heap's angle is the mean over the sides it is seen from. What its pictures scatter by is taken
+/// to be alike for all heaps and pooled, after JCGM 100:2008 (GUM), H.5.2:
+///
+///     w^2 = sum (x - x_k)^2 / f          f = sum (m_k - 1)
+///     a heap's half-width = t(.975; f) w / sqrt(m_k) + camera
+///     b^2 = s^2 - w^2 mean(1 / m_k)      at least 0
+///
+///     x_k, m_k  mean and number of a heap's pictures      s  standard deviation of the x_k
+///     w, b      standard deviations within and between heaps
+///
+/// The camera's part is added, as to a picture's own. Proved by PictureSet.* in tests/calibrate.
 PictureSet set_of_pictures(std::span<const SetPicture> pictures);
 
 /// "51.20° is an outlier: the median of these 4 pictures is 22.45°, ...".

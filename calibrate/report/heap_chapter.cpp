@@ -77,7 +77,9 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
   const std::string name = shortened(picture.file.filename().string());
   try {
     MeasuredHeap heap{.title = name, .picture = {}, .angle = {}};
-    const auto [told, scale] = vision::with_saved_hints({}, picture.file);
+    vision::PictureSettings given;
+    given.measuring.definition = definition;
+    const auto [told, scale] = vision::with_saved_hints(given, picture.file);
     vision::SizedHeap sized;
     if (vision::has_film_ending(picture.file)) {
       vision::FilmAngle film = vision::measure_film(picture.file, told, scale);
@@ -90,7 +92,7 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
     if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
     heap.angle = std::move(sized.angle);
     constexpr double kSame_deg = 0.01;
-    const auto now_rad = vision::angle_by(heap.angle, definition);
+    const auto now_rad = heap.angle.angle_rad;
     const bool is_same =
         now_rad && std::abs(*now_rad / kDegree - picture.angle_deg.value_or(0)) <= kSame_deg;
     if (picture.angle_deg && !is_same) {
@@ -154,9 +156,11 @@ std::optional<dem::LevelCamera> stated_camera(const ReportedStudy& study) {
   return pictured.camera(described->second.protocol);
 }
 
-MeasuredHeap rendered(const HeapViewSession& session, int view) {
+MeasuredHeap rendered(const HeapViewSession& session, int view, const std::string& definition) {
   render::Renderer renderer;
-  TakenView taken = session.take(renderer, view);
+  vision::MeasureOptions options;
+  options.definition = definition;
+  TakenView taken = session.take(renderer, view, options);
   return {.title = fmt::format("from {}° (rendering)", 180 * view / session.views()),
           .picture = std::move(taken.picture),
           .angle = std::move(taken.angle)};
@@ -284,7 +288,7 @@ HeapPictures heap_pictures(const ReportedStudy& study) {
     const std::optional<dem::LevelCamera> camera = stated_camera(study);
     const HeapViewSession session(scene, {.views = kShownViews, .camera = camera});
     for (int view = 0; view < session.views(); ++view) {
-      MeasuredHeap heap = rendered(session, view);
+      MeasuredHeap heap = rendered(session, view, shown.definition);
       if (!compared && heap.angle.angle_rad) shown.best_render = shown.renders.size();
       shown.renders.push_back(with_overlay(heap, kRenderSide_px, "Simulated heap,"));
       if (!compared && heap.angle.angle_rad) compared = std::move(heap);
@@ -323,20 +327,16 @@ Chapter heap_chapter(const HeapPictures& pictures) {
   Chapter chapter{.id = "heaps", .title = "The heaps", .blocks = {}};
   for (const std::string& remark : pictures.remarks) chapter.blocks.push_back(Remark{remark});
   if (pictures.photographs.empty() && pictures.renders.empty()) return chapter;
+  const base::AngleDefinition& definition =
+      *base::find_definition(base::definition_meant(pictures.definition));
   chapter.blocks.push_back(Paragraph{fmt::format(
-      "{}: on each side a line is fitted to the heap's edge between 20 and 80 % of its height, "
-      "and the angle of repose is the mean of both sides, relative to the ground line. The "
-      "measurement is drawn in; ± is the half-width of the 95 % interval.",
+      "{}: on each side {}; the angle of repose is the mean of both sides, relative to the ground "
+      "line ({}). The measurement is drawn in; ± is the half-width of the 95 % interval.",
       pictures.photographs.empty() ? "How the pictures of the simulation are measured"
       : pictures.renders.empty()   ? "How the photographs are measured"
                                    : "Photographs and pictures of the simulation are measured by "
-                                     "the same program in the same way")});
-  if (!base::is_usual_definition(pictures.definition)) {
-    chapter.blocks.push_back(Remark{fmt::format(
-        "The angles that the coefficients are fitted to are of the same heaps by another "
-        "definition, {}: {}.",
-        pictures.definition, base::find_definition(pictures.definition)->description)});
-  }
+                                     "the same program in the same way",
+      definition.description, definition.name)});
   if (!pictures.photographs.empty()) {
     const std::size_t count = pictures.photographs.size();
     chapter.blocks.push_back(Heading{"Photographs"});

@@ -51,7 +51,7 @@ calibrate::PictureSet set_of(const std::vector<MeasuredPhotograph>& pictures) {
   std::vector<calibrate::SetPicture> set;
   for (const MeasuredPhotograph& picture : pictures) {
     if (!picture.error.empty()) continue;
-    set.push_back(calibrate::set_picture_of(picture.angle, {}, picture.heap));
+    set.push_back(calibrate::set_picture_of(picture.angle, picture.heap));
   }
   return calibrate::set_of_pictures(set);
 }
@@ -74,9 +74,14 @@ std::string answer_text(const std::vector<MeasuredPhotograph>& pictures,
                                    : "No picture gave a usable number.";
   if (set.within_sd_deg) {
     text += fmt::format(
-        " These are {} pictures of {} heaps, and n counts heaps; pictures of one heap have a "
+        " These are {} pictures of {} {}, and n counts heaps; pictures of one heap have a "
         "standard deviation of {}°.",
-        set.pictures, set.heaps_deg->n, shown(set.within_sd_deg, 2));
+        set.pictures, set.heaps_deg->n, set.heaps_deg->n == 1 ? "heap" : "heaps",
+        shown(set.within_sd_deg, 2));
+    if (set.between_sd_deg) {
+      text += fmt::format(" Without that, the heaps themselves have {}°.",
+                          shown(set.between_sd_deg, 2));
+    }
   }
   if (set.ok_deg && set.flagged > 0) text += ' ' + mean_text(*set.ok_deg, "Of those that are ok");
   if (outliers > 0) {

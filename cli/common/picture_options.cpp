@@ -1,5 +1,6 @@
 #include "cli/common/picture_options.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -86,6 +87,8 @@ vision::MeasureOptions read_measuring(const TypedMeasuring& typed,
     options.window_from = window->front();
     options.window_to = window->back();
   }
+  options.definition = typed.definition;
+  std::ranges::replace(options.definition, '-', '_');
   options.camera_pitch_rad =
       read_angle({"--pitch-deg", typed.pitch_deg, errors},
                  "give the angle by which the camera looks down, or take a level picture");
@@ -95,7 +98,8 @@ vision::MeasureOptions read_measuring(const TypedMeasuring& typed,
     const auto [x, y, width, height] = *box;
     options.excluded.push_back({.x = x, .y = y, .width = width, .height = height});
   }
-  const std::array<base::FieldName, 3> names{{{"window", "--window"},
+  const std::array<base::FieldName, 4> names{{{"window", "--window"},
+                                              {"definition", "--definition"},
                                               {"excluded box", typed.exclude_option},
                                               {"camera pitch", "--pitch-deg"}}};
   for (const base::Fault& problem : options.problems()) errors.push_back(problem.text(names));

@@ -36,6 +36,7 @@ vision::ScaleOptions read_scale(const ScaleArguments& arguments, std::string_vie
 struct TypedMeasuring {
   const std::string& method;
   const std::string& window;
+  const std::string& definition;
   const std::string& pitch_deg;
   const std::vector<std::string>& exclude;
   base::FieldNames fields;  ///< for what the measurement advises; lives as long as the program

@@ -18,6 +18,7 @@ struct CompareArguments {
   std::string camera_mm;  ///< DISTANCE,HEIGHT
   std::string method;
   std::string window;
+  std::string definition;
   std::string pitch_deg;  ///< A,B
   std::vector<std::string> exclude_first;
   std::vector<std::string> exclude_second;

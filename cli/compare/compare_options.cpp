@@ -191,6 +191,7 @@ void read_measuring_of_both(const CompareArguments& arguments, ComparePlan& plan
     std::vector<std::string> errors;
     plan.measuring[i] = read_measuring({.method = arguments.method,
                                         .window = arguments.window,
+                                        .definition = arguments.definition,
                                         .pitch_deg = pitches[i],
                                         .exclude = exclude,
                                         .fields = kCompareFields[i],
@@ -326,6 +327,7 @@ Command compare_command() {
             &given->camera_mm},
            {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
            {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
+           {"--definition", "NAME", "Which angle it is (flank_20_80)", &given->definition},
            {"--pitch-deg", "A[,B]", "Cameras' downward pitch (unknown)", &given->pitch_deg},
            {"--exclude-first", "X,Y,W,H", "Box to ignore; repeatable", &given->exclude_first},
            {"--exclude-second", "X,Y,W,H", "Box to ignore; repeatable", &given->exclude_second},

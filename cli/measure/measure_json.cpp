@@ -183,7 +183,8 @@ Json definitions_json(const std::vector<vision::NamedAngle>& definitions) {
   for (const vision::NamedAngle& definition : definitions) {
     json.push_back({{"name", definition.name},
                     {"description", definition.description},
-                    {"angle_deg", rounded_degrees(definition.angle_rad)}});
+                    {"angle_deg", rounded_degrees(definition.angle_rad)},
+                    {"uncertainty_deg", degrees(definition.uncertainty_rad)}});
   }
   return json;
 }
@@ -297,6 +298,7 @@ Json picture_json(const MeasuredPicture& picture) {
             {"left", flank_json(angle.left)},
             {"right", flank_json(angle.right)},
             {"ground_tilt_deg", degrees(angle.ground_tilt_rad)},
+            {"definition", angle.definition.empty() ? Json() : Json(angle.definition)},
             {"window", angle.window},
             {"method", name_of(angle.method)},
             {"pitch_deg", degrees(angle.camera_pitch_rad)},
@@ -315,7 +317,8 @@ Json picture_json(const MeasuredPicture& picture) {
   add_film(picture.filmed, json);
   if (picture.outcome != Outcome::measured) {
     json["reason"] = picture.error;
-    for (const char* unknown : {"window", "method", "confidence", "segmentation", "strays"}) {
+    for (const char* unknown :
+         {"definition", "window", "method", "confidence", "segmentation", "strays"}) {
       json[unknown] = nullptr;
     }
   } else if (angle.status == vision::MeasureStatus::refused) {

@@ -90,6 +90,7 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   MeasurePlan plan;
   plan.options = read_measuring({.method = arguments.method,
                                  .window = arguments.window,
+                                 .definition = arguments.definition,
                                  .pitch_deg = arguments.pitch_deg,
                                  .exclude = arguments.exclude,
                                  .fields = kMeasureFields},
@@ -128,10 +129,10 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
 namespace {
 
 constexpr const char* kMeasureNotes = R"(
-PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; or a film
-of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A folder
-stands for all pictures and films in it, except films that share a photo's name,
-as phones save both at once. FILE may be - for standard output.
+PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; or a
+film of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A
+folder stands for all pictures and films in it, except films that share a
+photo's name, as phones save both at once. FILE may be - for standard output.
 
 Films: the heap at rest is measured in the mean of the frames of the last second
 in which nothing moves. A heap that still moves when the film ends is refused:
@@ -153,9 +154,16 @@ Methods:
 
 Window: the part of each side that is fitted, as fractions of the heap's
 height. Sides are concave at the toe and round at the crest, so the angle
-depends on the window: always state it. --definitions and the JSON list the
-angle by other definitions (height over base, tangent at half height, whole
-flank, other windows).
+depends on the window: always state it.
+
+Definitions: --definition makes another one the number, with its own interval:
+  flank_20_80          robust line at 20-80 % of the height (usual)
+  height_over_base     from the crest to the foot (cone; ISO 4324)
+  half_height_tangent  least-squares line at 40-60 %
+  inner_window         least-squares line at 30-70 %
+  outer_window         least-squares line at 10-90 %
+  whole_flank          least-squares line from toe to crest
+--definitions and the JSON list the angle by all of them.
 
 Hints: if the heap is not found, mark where it is. --heap alone is often enough;
 --ground is needed if the foot is hidden. Positions are in pixels from the
@@ -192,6 +200,7 @@ Command measure_command() {
             &given->pictures, true},
            {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
            {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
+           {"--definition", "NAME", "Which angle it is (flank_20_80)", &given->definition},
            {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
            {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
            {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},

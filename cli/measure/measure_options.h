@@ -29,6 +29,7 @@ struct MeasureArguments {
   std::vector<std::string> pictures;  ///< and films: files and folders
   std::string method;
   std::string window;
+  std::string definition;
   std::vector<std::string> exclude;
   std::string heap;
   std::string ground;

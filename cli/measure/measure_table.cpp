@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "cli/common/json_text.h"
 #include "cli/common/table.h"
 #include "cli/measure/measure.h"
@@ -84,6 +85,7 @@ void add_measuring(const vision::MeasureOptions& told, Options& options) {
   if (told.window_from != usual.window_from || told.window_to != usual.window_to) {
     options.add("--window", fmt::format("{:g},{:g}", told.window_from, told.window_to));
   }
+  if (!base::is_usual_definition(told.definition)) options.add("--definition", told.definition);
   options.add_each("--exclude", told.excluded);
   options.add_each("--keep", told.hints.keep);
   options.add_each("--drop", told.hints.drop);
@@ -148,7 +150,8 @@ Colour row_colour(const MeasuredPicture& picture, bool has_colour) {
 
 void add_definitions(Table& table, const vision::ReposeAngle& angle) {
   for (const vision::NamedAngle& definition : angle.definitions) {
-    table.add_note(fmt::format("{}{:5.2f}°  ", kNoteIndent, to_degrees(definition.angle_rad)),
+    table.add_note(fmt::format("{}{}  ", kNoteIndent,
+                               degrees_cell(definition.angle_rad, definition.uncertainty_rad)),
                    fmt::format("{}: {}", definition.name, definition.description));
   }
   for (const auto& [side, flank] : {std::pair("left", &angle.left), {"right", &angle.right}}) {

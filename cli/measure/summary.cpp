@@ -16,7 +16,7 @@ double rounded(double angle_deg) { return std::round(angle_deg * 1e6) / 1e6; }
 
 std::string mean_text(const calibrate::Summary& mean) {
   const auto& [n, middle, sd, uncertainty] = mean;
-  if (!sd || !uncertainty) return fmt::format("{:.2f}° only one picture: no scatter", middle);
+  if (!sd || !uncertainty) return fmt::format("{:.2f}° only one heap: no scatter", middle);
   return fmt::format(
       "{:.2f}° sd {:.2f}° n = {}, 95 % interval of the mean {:.2f} … {:.2f}° (Student)", middle,
       *sd, n, middle - *uncertainty, middle + *uncertainty);
@@ -54,8 +54,17 @@ std::string heaps_text(const calibrate::PictureSet& set) {
   std::string text;
   if (set.within_sd_deg && set.heaps_deg) {
     text += fmt::format(
-        "\n{} pictures of {} heaps, n counts heaps; those of one heap scatter by sd {:.2f}°",
-        set.pictures, set.heaps_deg->n, *set.within_sd_deg);
+        "\n{} pictures of {} {}, n counts heaps; those of one heap scatter by sd {:.2f}°",
+        set.pictures, set.heaps_deg->n, set.heaps_deg->n == 1 ? "heap" : "heaps",
+        *set.within_sd_deg);
+    if (set.between_sd_deg) {
+      text += fmt::format(", the heaps themselves by sd {:.2f}°", *set.between_sd_deg);
+    }
+    for (const calibrate::HeapOfSet& heap : set.heaps) {
+      text += fmt::format("\nheap {}: {:.2f} ± {:.2f}° by {} {}", heap.name, heap.angle_deg,
+                          heap.within_deg.value_or(0), heap.pictures,
+                          heap.pictures == 1 ? "picture" : "pictures");
+    }
   }
   if (set.heaps_deg && set.heaps_deg->n > 1 && set.camera_deg >= .005) {
     text +=
@@ -103,7 +112,7 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
       continue;
     }
     if (picture.outcome == Outcome::measured) {
-      set.push_back(calibrate::set_picture_of(picture.angle, {}, picture.heap));
+      set.push_back(calibrate::set_picture_of(picture.angle, picture.heap));
       from.push_back(&picture);
     } else {
       ++summary.not_read;
@@ -154,6 +163,19 @@ nlohmann::ordered_json mean_json(const std::optional<calibrate::Summary>& of) {
   return json;
 }
 
+nlohmann::ordered_json heap_json(const calibrate::HeapOfSet& heap) {
+  nlohmann::ordered_json json{{"name", heap.name},
+                              {"pictures", heap.pictures},
+                              {"angle_deg", rounded(heap.angle_deg)},
+                              {"sd_deg", nullptr},
+                              {"interval_deg", nullptr}};
+  if (heap.sd_deg) json["sd_deg"] = rounded(*heap.sd_deg);
+  if (const auto half = heap.within_deg) {
+    json["interval_deg"] = {rounded(heap.angle_deg - *half), rounded(heap.angle_deg + *half)};
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& summary) {
@@ -162,6 +184,10 @@ std::string summary_json(const Summary& summary) {
   json["pictures"] = set.pictures;
   json["within_heaps_sd_deg"] = nullptr;
   if (set.within_sd_deg) json["within_heaps_sd_deg"] = rounded(*set.within_sd_deg);
+  json["between_heaps_sd_deg"] = nullptr;
+  if (set.between_sd_deg) json["between_heaps_sd_deg"] = rounded(*set.between_sd_deg);
+  json["heaps"] = nlohmann::ordered_json::array();
+  for (const calibrate::HeapOfSet& heap : set.heaps) json["heaps"].push_back(heap_json(heap));
   json["camera_deg"] = nullptr;
   if (set.heaps_deg) json["camera_deg"] = rounded(set.camera_deg);
   json["ok"] = mean_json(set.ok_deg);

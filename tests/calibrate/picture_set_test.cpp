@@ -62,7 +62,9 @@ TEST(PictureSet, PicturesOfOneHeapAreOneHeap) {
   const PictureSet set = set_of_pictures(
       std::vector<SetPicture>{picture(21, ok, "a"), picture(23, ok, "a"), picture(24),
                               picture(20, flagged, "b"), picture(22, ok, "b"), picture(25)});
-  EXPECT_THAT(set.heap_deg, ElementsAre(22, 24, 21, 25));
+  std::vector<double> angles;
+  for (const HeapOfSet& heap : set.heaps) angles.push_back(heap.angle_deg);
+  EXPECT_THAT(angles, ElementsAre(22, 24, 21, 25));
   EXPECT_EQ(set.heaps_deg->n, 4);
   EXPECT_EQ(set.heaps_deg->mean, 23);
   EXPECT_EQ(set.pictures, 6);
@@ -70,6 +72,42 @@ TEST(PictureSet, PicturesOfOneHeapAreOneHeap) {
   EXPECT_EQ(set.flagged, 1);
   EXPECT_EQ(set.ok_deg->n, 4);
   EXPECT_EQ(set.ok_deg->mean, (22 + 24 + 22 + 25) / 4.);
+}
+
+// The set above by hand: w^2 = (2 + 2) / 2; s^2 = (1 + 1 + 4 + 4) / 3, of which w^2 (1/2 + 1 + 1/2
+// + 1) / 4 comes from the pictures; Student's quantile of two degrees of freedom from a table.
+TEST(PictureSet, WhatPicturesScatterByIsToldFromWhatHeapsDo) {
+  using enum MeasureStatus;
+  const PictureSet set = set_of_pictures(
+      std::vector<SetPicture>{picture(21, ok, "a"), picture(23, ok, "a"), picture(24),
+                              picture(20, ok, "b"), picture(22, ok, "b"), picture(25)});
+  EXPECT_NEAR(set.between_sd_deg.value(), std::sqrt(10. / 3 - 2 * .75), 1e-12);
+  constexpr double kStudent2 = 4.3027, kCamera = .5;
+  EXPECT_EQ(set.heaps[0].name, "a");
+  EXPECT_EQ(set.heaps[0].pictures, 2);
+  EXPECT_NEAR(set.heaps[0].sd_deg.value(), std::sqrt(2), 1e-12);
+  EXPECT_NEAR(set.heaps[0].within_deg.value(), kStudent2 + kCamera, 1e-4);
+  EXPECT_FALSE(set.heaps[1].sd_deg);
+  EXPECT_NEAR(set.heaps[1].within_deg.value(), kStudent2 * std::sqrt(2) + kCamera, 1e-4);
+}
+
+TEST(PictureSet, OneHeapFromManySidesHasAnIntervalButNoScatterOfHeaps) {
+  std::vector<SetPicture> views;
+  for (const double angle_deg : {20., 21., 22., 23., 24., 25.}) {
+    views.push_back(picture(angle_deg, MeasureStatus::ok, "a"));
+  }
+  const PictureSet set = set_of_pictures(views);
+  EXPECT_FALSE(set.between_sd_deg);
+  ASSERT_THAT(set.heaps, SizeIs(1));
+  constexpr double kStudent5 = 2.5706;  // of six pictures, variance 3.5
+  EXPECT_NEAR(set.heaps[0].within_deg.value(), kStudent5 * std::sqrt(3.5 / 6) + .5, 1e-4);
+}
+
+TEST(PictureSet, HeapsThatDifferByNoMoreThanTheirPicturesHaveNoScatterOfTheirOwn) {
+  using enum MeasureStatus;
+  const PictureSet set = set_of_pictures(std::vector<SetPicture>{
+      picture(20, ok, "a"), picture(24, ok, "a"), picture(20.1, ok, "b"), picture(24, ok, "b")});
+  EXPECT_EQ(set.between_sd_deg, 0);
 }
 
 TEST(PictureSet, WhatTheCameraDoesToAllIsNotLoweredByMore) {

@@ -63,8 +63,8 @@ TEST(Reading, AngleIsTheMeanOfTheSidesThatExist) {
 TEST(ChooseReading, SegmentationsAgreeOnAClearPicture) {
   const SelectedCandidate choice = choice_of(mat_of(drawn("clean", 2, kSmallWidth).picture));
   EXPECT_GT(choice.best.score, 0.55);
-  EXPECT_LT(choice.disagreement_rad, 0.3 * kDegree);
-  EXPECT_LT(choice.left_disagreement_rad, 0.5 * kDegree);
+  EXPECT_LT(choice.disagreement.mean_rad, 0.3 * kDegree);
+  EXPECT_LT(choice.disagreement.left_rad, 0.5 * kDegree);
 }
 
 /// A heap of two colours, and what lies beside it.
@@ -79,7 +79,7 @@ cv::Mat3b masked_heap(const cv::Scalar& beside) {
 TEST(ChooseReading, OfTwoColoursAsksOneSegmentation) {
   const SelectedCandidate two = choice_of(masked_heap({0, 0, 0}));
   EXPECT_EQ(two.best.segmentation.name, kTwoTones);
-  EXPECT_EQ(two.disagreement_rad, 0);
+  EXPECT_EQ(two.disagreement.mean_rad, 0);
   EXPECT_NEAR(two.best.angle_rad(), std::atan(100. / 180), 0.3 * kDegree);
   const SelectedCandidate three = choice_of(masked_heap({0, 0, 200}));
   EXPECT_NE(three.best.segmentation.name, kTwoTones);

@@ -84,8 +84,8 @@ TEST(Uncertainty, OfOneFlankHasTheGroundTilt) {
 TEST(Uncertainty, GrowsWhereSegmentationsDisagree) {
   SelectedCandidate choice = choice_with_errors(0.01, 0.01);
   const Uncertainty before = uncertainty_of(choice);
-  choice.disagreement_rad = 0.03;
-  choice.left_disagreement_rad = 0.05;
+  choice.disagreement.mean_rad = 0.03;
+  choice.disagreement.left_rad = 0.05;
   const Uncertainty after = uncertainty_of(choice);
   EXPECT_NEAR(after.mean_rad, std::hypot(before.mean_rad, 0.03), 1e-9);
   EXPECT_NEAR(after.left_rad, std::hypot(before.left_rad, 0.05), 1e-9);

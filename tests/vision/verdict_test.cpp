@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
               },
               "left: this side falls off vertically"},
         Error{"faint_edge", [](JudgedHeap& c) { c.choice.best.score = 0.1; }, "too uncertain"},
-        Error{"disagreement", [](JudgedHeap& c) { c.choice.disagreement_rad = 3 * kDegree; },
+        Error{"disagreement", [](JudgedHeap& c) { c.choice.disagreement.mean_rad = 3 * kDegree; },
               "too uncertain"},
         Error{"crest_cut", [](JudgedHeap& c) { c.choice.best.profile.leaves_frame_top = true; },
               "crest is outside"},
@@ -307,7 +307,7 @@ TEST(Judge, ConfidenceFallsWithTheEdgeAndWithDisagreement) {
   const auto confidence = [](double score, double disagreement_deg) {
     JudgedHeap heap;
     heap.choice.best.score = score;
-    heap.choice.disagreement_rad = disagreement_deg * kDegree;
+    heap.choice.disagreement.mean_rad = disagreement_deg * kDegree;
     return heap.judged().confidence;
   };
   EXPECT_GT(confidence(0.5, 0), confidence(0.4, 0));

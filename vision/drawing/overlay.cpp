@@ -13,6 +13,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/angle_definition.h"
 #include "base/input_error.h"
 #include "vision/drawing/canvas.h"
 #include "vision/measure/repose_angle.h"
@@ -57,6 +58,7 @@ std::string window_text(const std::array<double, 2>& window) {
 /// The window, and of each side of which less was fitted, what that is.
 std::string windows_of(const ReposeAngle& measured) {
   std::string text = fmt::format("window {} of the height", window_text(measured.window));
+  if (!base::is_usual_definition(measured.definition)) text = measured.definition + ", " + text;
   for (const auto& [name, flank] :
        {std::pair("left", &measured.left), {"right", &measured.right}}) {
     if (!flank->window_used || *flank->window_used == measured.window) continue;

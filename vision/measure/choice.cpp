@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -63,10 +65,6 @@ bool is_upright(const Reading& reading) {
   return !reading.has_flank() && (reading.left.vertical || reading.right.vertical);
 }
 
-bool sees(const Reading& reading, Side side) {
-  return reading.flank(side).status == FlankStatus::ok;
-}
-
 /// Root mean square distance of the rivals from the best.
 double rms(const std::vector<double>& distance) {
   double sum = 0;
@@ -74,14 +72,24 @@ double rms(const std::vector<double>& distance) {
   return distance.empty() ? 0 : std::sqrt(sum / static_cast<double>(distance.size()));
 }
 
-double side_disagreement(const Reading& best, const std::vector<const Reading*>& rivals,
-                         Side side) {
+/// Of readings, or of their flanks by one definition.
+template <class Flanks>
+Disagreement disagreement_of(const Flanks& best, const std::vector<const Flanks*>& rivals) {
+  const auto of_side = [&](Side side) {
+    std::vector<double> distance;
+    for (const Flanks* rival : rivals) {
+      const FlankFit& mine = best.flank(side);
+      const FlankFit& other = rival->flank(side);
+      if (mine.status != FlankStatus::ok || other.status != FlankStatus::ok) continue;
+      distance.push_back(other.angle_rad - mine.angle_rad);
+    }
+    return rms(distance);
+  };
   std::vector<double> distance;
-  for (const Reading* rival : rivals) {
-    if (!sees(best, side) || !sees(*rival, side)) continue;
-    distance.push_back(rival->flank(side).angle_rad - best.flank(side).angle_rad);
-  }
-  return rms(distance);
+  for (const Flanks* rival : rivals) distance.push_back(rival->angle_rad() - best.angle_rad());
+  return {.left_rad = of_side(Side::left),
+          .right_rad = of_side(Side::right),
+          .mean_rad = rms(distance)};
 }
 
 /// The others that score nearly as well.
@@ -95,19 +103,13 @@ std::vector<const Reading*> rivals_of(const Reading& best, const std::vector<Rea
   return rivals;
 }
 
-double disagreement(const Reading& best, const std::vector<const Reading*>& rivals) {
-  std::vector<double> distance;
-  for (const Reading* rival : rivals) distance.push_back(rival->angle_rad() - best.angle_rad());
-  return rms(distance);
-}
-
 /// One segmentation sees all there is, or several the same sharp edge: another look would tell
 /// nothing new.
 bool is_settled(const Reading& best, const std::vector<Reading>& readings) {
   if (best.segmentation.name == kTwoTones) return true;
   const std::vector<const Reading*> rivals = rivals_of(best, readings);
   return best.score > kClearlyGood && rivals.size() >= 2 &&
-         disagreement(best, rivals) < kAgreement_rad;
+         disagreement_of(best, rivals).mean_rad < kAgreement_rad;
 }
 
 const Reading& best_of(const std::vector<Reading>& readings) {
@@ -304,7 +306,39 @@ std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOpt
   return readings;
 }
 
+std::vector<DefinedFlanks> other_flanks_of(const Reading& reading) {
+  return other_flanks({.profile = reading.profile,
+                       .left = reading.left,
+                       .right = reading.right,
+                       .grain = reading.grain});
+}
+
+std::vector<SelectedFlanks> select_others(const Reading& best,
+                                          const std::vector<const Reading*>& rivals) {
+  std::vector<std::vector<DefinedFlanks>> theirs;
+  for (const Reading* rival : rivals) theirs.push_back(other_flanks_of(*rival));
+  std::vector<SelectedFlanks> others;
+  for (DefinedFlanks& mine : other_flanks_of(best)) {
+    std::vector<const DefinedFlanks*> same;
+    for (const auto& all : theirs) {
+      for (const DefinedFlanks& flanks : all) {
+        if (flanks.definition == mine.definition) same.push_back(&flanks);
+      }
+    }
+    const Disagreement disagreement = disagreement_of(mine, same);
+    others.push_back({.flanks = std::move(mine), .disagreement = disagreement});
+  }
+  return others;
+}
+
 }  // namespace
+
+const SelectedFlanks* SelectedCandidate::by(std::string_view definition) const {
+  for (const SelectedFlanks& other : others) {
+    if (other.flanks.definition->name == definition) return &other;
+  }
+  return nullptr;
+}
 
 SelectedCandidate choose_reading(const WorkingPicture& work, const MeasureOptions& options) {
   std::vector<Reading> readings = first_readings(work, options);
@@ -332,9 +366,8 @@ SelectedCandidate choose_reading(const WorkingPicture& work, const MeasureOption
   }
   const Reading& best = middle_of_best(readings);
   const std::vector<const Reading*> rivals = rivals_of(best, readings);
-  choice.disagreement_rad = disagreement(best, rivals);
-  choice.left_disagreement_rad = side_disagreement(best, rivals, Side::left);
-  choice.right_disagreement_rad = side_disagreement(best, rivals, Side::right);
+  choice.disagreement = disagreement_of(best, rivals);
+  choice.others = select_others(best, rivals);
   choice.best = best;
   if (best.has_flank()) choice.likeness = likeness_of(best, work);
   return choice;

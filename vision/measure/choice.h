@@ -1,5 +1,9 @@
 #pragma once
 
+#include <string_view>
+#include <vector>
+
+#include "vision/measure/definitions.h"
 #include "vision/measure/likeness.h"
 #include "vision/measure/reading.h"
 
@@ -9,13 +13,28 @@ namespace repose::vision {
 /// same ground line, as a part of the one's height.
 double edge_distance(const Reading& one, const Reading& other);
 
+/// How far the other good readings are from the best one: root mean square distances.
+struct Disagreement {
+  double left_rad = 0;
+  double right_rad = 0;
+  double mean_rad = 0;  ///< of the mean of both sides
+};
+
+/// The best reading's flanks by a definition, and those of the others by the same.
+struct SelectedFlanks {
+  DefinedFlanks flanks;
+  Disagreement disagreement;
+};
+
 /// The reading that the picture supports best, and how far the other good ones are from it.
 struct SelectedCandidate {
   Reading best;
-  double left_disagreement_rad = 0;  ///< root mean square distance of the other good readings
-  double right_disagreement_rad = 0;
-  double disagreement_rad = 0;  ///< the same of the mean angle
-  HeapPlausibility likeness;    ///< of the best, where it has a flank
+  Disagreement disagreement;
+  HeapPlausibility likeness;           ///< of the best, where it has a flank
+  std::vector<SelectedFlanks> others;  ///< by the definitions other than the usual one
+
+  /// Null where there are none by that.
+  const SelectedFlanks* by(std::string_view definition) const;
 };
 
 /// Tries every segmentation, looks again at the best body, and chooses by score.

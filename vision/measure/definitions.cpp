@@ -1,75 +1,100 @@
 #include "vision/measure/definitions.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/angle_definition.h"
 
 namespace repose::vision {
 namespace {
 
-/// Distance along the ground from the crest to the foot of a side.
-double run_of(const Profile& profile, Side side) {
-  const double crest = profile.along[profile.crest];
-  return side == Side::left ? crest - profile.along.front() : profile.along.back() - crest;
+constexpr std::array kSides{Side::left, Side::right};
+
+/// The least-squares line of another window, all columns alike.
+FlankFit window_fit(const FittedEdge& edge, Side side, const std::array<double, 2>& window) {
+  FlankFit fit = fit_flank(edge.profile, side,
+                           {.window_from = window[0],
+                            .window_to = window[1],
+                            .leave_apron_out = false,
+                            .is_robust = false,
+                            .grain = edge.grain});
+  fit.window_spread_rad = 0;
+  return fit;
 }
 
-bool has_side(const FittedEdge& edge, Side side) {
-  return (side == Side::left ? edge.left : edge.right).status == FlankStatus::ok;
-}
-
-FlankFit refit(const FittedEdge& edge, Side side, double from, double to) {
-  return fit_flank(edge.profile, side, {from, to, false, edge.grain, 1});
-}
-
-/// Mean over the sides of the least-squares angle of another window; empty where a side has none.
-std::optional<double> window_angle(const FittedEdge& edge, double from, double to) {
-  double sum = 0;
-  int sides = 0;
-  for (const Side side : {Side::left, Side::right}) {
-    if (!has_side(edge, side)) continue;
-    const FlankFit other = refit(edge, side, from, to);
-    if (other.status != FlankStatus::ok) return std::nullopt;
-    sum += std::atan(-other.least_squares.slope);
-    ++sides;
+/// The line from the crest to the foot. Of a side whose foot the frame hides there is none.
+/// @param grain  as the usual line has it
+FlankFit chord_fit(const FittedEdge& edge, Side side, double grain) {
+  const Profile& profile = edge.profile;
+  FlankFit fit = window_fit(edge, side, {0, 1});
+  if (fit.status != FlankStatus::ok) return fit;
+  if (side == Side::left ? profile.leaves_frame_left : profile.leaves_frame_right) {
+    fit.status = FlankStatus::truncated;
+    return fit;
   }
-  return sides > 0 ? std::optional(sum / sides) : std::nullopt;
+  const double end = side == Side::left ? profile.along.front() : profile.along.back();
+  const double run = std::abs(end - profile.along[profile.crest]);
+  fit.shown = LineFit{.intercept = profile.crest_height,
+                      .slope = -profile.crest_height / run,
+                      .r2 = fit.least_squares.r2};
+  fit.angle_rad = std::atan2(profile.crest_height, run);
+  fit.fit_error_rad = grain / std::sqrt(12.0) * std::cos(fit.angle_rad) / run;
+  fit.degrees_of_freedom = 1e6;  // known, not estimated
+  return fit;
 }
 
-/// Mean over the sides of crest height over half base.
-std::optional<double> cone_angle(const FittedEdge& edge) {
-  double sum = 0;
-  int sides = 0;
-  for (const Side side : {Side::left, Side::right}) {
-    if (!has_side(edge, side)) continue;
-    sum += std::atan2(edge.profile.crest_height, run_of(edge.profile, side));
-    ++sides;
+/// @param fit  of a side
+template <class Fit>
+std::optional<DefinedFlanks> flanks_by(const base::AngleDefinition& definition,
+                                       const FittedEdge& edge, Fit fit) {
+  DefinedFlanks flanks;
+  flanks.definition = &definition;
+  bool is_any = false;
+  for (const Side side : kSides) {
+    const FlankFit& usual = side == Side::left ? edge.left : edge.right;
+    FlankFit& mine = side == Side::left ? flanks.left : flanks.right;
+    if (usual.status != FlankStatus::ok) {
+      mine.status = usual.status;
+      mine.reason = usual.reason;
+      continue;
+    }
+    mine = fit(side);
+    if (mine.status != FlankStatus::ok) return std::nullopt;
+    is_any = true;
   }
-  return sides > 0 ? std::optional(sum / sides) : std::nullopt;
+  return is_any ? std::optional(std::move(flanks)) : std::nullopt;
 }
 
 }  // namespace
 
-std::vector<NamedAngle> other_definitions(const FittedEdge& edge) {
-  std::vector<NamedAngle> all;
-  const auto add = [&](const char* name, std::optional<double> angle_rad) {
-    const base::AngleDefinition* known = base::find_definition(name);
-    if (angle_rad) all.push_back({name, std::string(known->description), *angle_rad});
+std::vector<DefinedFlanks> other_flanks(const FittedEdge& edge) {
+  std::vector<DefinedFlanks> all;
+  const auto add = [&](std::optional<DefinedFlanks> flanks) {
+    if (flanks) all.push_back(std::move(*flanks));
   };
-  add("height_over_base", cone_angle(edge));
-  add("half_height_tangent", window_angle(edge, 0.4, 0.6));
-  add("inner_window", window_angle(edge, 0.3, 0.7));
-  add("outer_window", window_angle(edge, 0.1, 0.9));
-  add("whole_flank", window_angle(edge, 0.0, 1.0));
+  for (const base::AngleDefinition& definition : base::kAngleDefinitions) {
+    if (base::is_usual_definition(definition.name)) continue;
+    const bool is_chord = definition.name == "height_over_base";
+    add(flanks_by(definition, edge, [&](Side side) {
+      const FlankFit& usual = side == Side::left ? edge.left : edge.right;
+      return is_chord ? chord_fit(edge, side, usual.grain)
+                      : window_fit(edge, side, definition.window);
+    }));
+  }
   return all;
 }
 
-std::vector<NamedAngle> other_definitions(const Reading& reading) {
-  return other_definitions(FittedEdge{.profile = reading.profile,
-                                      .left = reading.left,
-                                      .right = reading.right,
-                                      .grain = reading.grain});
+std::vector<NamedAngle> other_definitions(const FittedEdge& edge) {
+  std::vector<NamedAngle> all;
+  for (const DefinedFlanks& flanks : other_flanks(edge)) {
+    all.push_back({.name = std::string(flanks.definition->name),
+                   .description = std::string(flanks.definition->description),
+                   .angle_rad = flanks.angle_rad()});
+  }
+  return all;
 }
 
 }  // namespace repose::vision

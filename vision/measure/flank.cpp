@@ -156,12 +156,12 @@ double weight_at(const FlankFit& fit, std::size_t i) {
 }
 
 /// Residuals of the points as far as they count and the robust line believes them; the others are
-/// put on the line.
-std::vector<double> believed_residuals(const FlankFit& fit) {
+/// put on the line. Of an ordinary line all as they are.
+std::vector<double> believed_residuals(const FlankFit& fit, bool is_robust) {
   std::vector<double> residual;
   for (std::size_t i = 0; i < fit.along.size(); ++i) {
-    const double r = fit.height[i] - fit.robust.y(fit.along[i]);
-    const double t = r / std::max(1e-9, 4.685 * fit.scatter);
+    const double r = fit.height[i] - fit.shown.y(fit.along[i]);
+    const double t = is_robust ? r / std::max(1e-9, 4.685 * fit.scatter) : 0;
     residual.push_back(std::abs(t) < 1 ? weight_at(fit, i) * r * (1 - t * t) : 0);
   }
   return residual;
@@ -215,7 +215,7 @@ double bend_scale(const FlankFit& fit, double spacing) {
 
 /// Both lines through the window's points, and how they scatter.
 void fit_lines(FlankFit& fit, const Descent& d, const Stretch& w, const std::vector<double>& weight,
-               double spacing) {
+               double spacing, bool is_robust) {
   const auto part = [&](const std::vector<double>& all) {
     return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(w.first),
                                all.begin() + static_cast<std::ptrdiff_t>(w.last));
@@ -226,7 +226,7 @@ void fit_lines(FlankFit& fit, const Descent& d, const Stretch& w, const std::vec
   fit.least_squares = least_squares_line(fit.along, fit.height, fit.weight);
   const double bend = bend_scale(fit, spacing);
   fit.robust = robust_line(fit.along, fit.height, fit.weight, bend);
-  fit.shown = fit.robust;
+  fit.shown = is_robust ? fit.robust : fit.least_squares;
   fit.angle_rad = angle_of(fit.shown);
   std::vector<double> distance;
   double all = 0;
@@ -240,12 +240,12 @@ void fit_lines(FlankFit& fit, const Descent& d, const Stretch& w, const std::vec
                  angle_of(line_through(d, {half, w.last}, weight));
 }
 
-void add_fit_error(FlankFit& fit, double spacing, std::uint64_t seed) {
+void add_fit_error(FlankFit& fit, double spacing, const FlankOptions& options) {
   const auto block = static_cast<std::size_t>(
       std::max(2.0, std::ceil(kBlockGrains * fit.grain / std::max(spacing, 0.1))));
-  const double slope_error =
-      block_bootstrap_slope_error(fit.along, believed_residuals(fit), block, seed, fit.weight);
-  fit.fit_error_rad = slope_error / (1 + fit.robust.slope * fit.robust.slope);
+  const double slope_error = block_bootstrap_slope_error(
+      fit.along, believed_residuals(fit, options.is_robust), block, options.seed, fit.weight);
+  fit.fit_error_rad = slope_error / (1 + fit.shown.slope * fit.shown.slope);
   double all = 0;
   for (std::size_t i = 0; i < fit.along.size(); ++i) all += weight_at(fit, i);
   fit.degrees_of_freedom = independent_blocks(all, block) - 2;
@@ -270,7 +270,7 @@ void add_apron(FlankFit& fit, const Descent& d, const Stretch& w, double crest, 
   if (fit.weight.empty() || fit.weight.back() == 1) return;
   FlankFit with = fit;
   with.weight.clear();
-  fit_lines(with, d, w, {}, spacing);
+  fit_lines(with, d, w, {}, spacing, true);
   fit.apron_rad = std::abs(with.angle_rad - fit.angle_rad);
   const std::size_t counted = fit.counted();
   if (counted == fit.along.size()) return;
@@ -289,6 +289,13 @@ std::size_t FlankFit::counted() const {
   const auto less =
       std::count_if(weight.begin(), weight.end(), [](double counts) { return counts < kHalf; });
   return along.size() - static_cast<std::size_t>(less);
+}
+
+double mean_angle_rad(const FlankFit& left, const FlankFit& right) {
+  const bool l = left.status == FlankStatus::ok;
+  const bool r = right.status == FlankStatus::ok;
+  if (l && r) return (left.angle_rad + right.angle_rad) / 2;
+  return l ? left.angle_rad : r ? right.angle_rad : 0;
 }
 
 double FlankFit::sure_bend_rad() const {
@@ -325,10 +332,10 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
     const double middle = (fit.window_from + fit.window_to) / 2 * crest;
     weight = weights_of(d, w, middle, fit.grain);
   }
-  fit_lines(fit, d, w, weight, spacing);
+  fit_lines(fit, d, w, weight, spacing, options.is_robust);
   // A wall with a plate before it, of which all but the wall was taken for an apron.
   if (-fit.least_squares.slope > kSteepest) return upright_end("this side falls off vertically");
-  add_fit_error(fit, spacing, options.seed);
+  add_fit_error(fit, spacing, options);
   add_other_windows(fit, d, crest, weight);
   add_apron(fit, d, w, crest, spacing);
   return fit;

@@ -91,10 +91,14 @@ struct FlankFit {
   double sure_bend_rad() const;
 };
 
+/// Mean of the sides that exist; 0 of none.
+double mean_angle_rad(const FlankFit& left, const FlankFit& right);
+
 struct FlankOptions {
   double window_from = 0.2;  ///< of the crest's height
   double window_to = 0.8;
   bool leave_apron_out = true;
+  bool is_robust = true;        ///< else ordinary least squares give the angle
   std::optional<double> grain;  ///< [working px]; empty: read off the edge's bumps
   std::uint64_t seed = 1;
 };

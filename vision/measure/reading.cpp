@@ -120,12 +120,7 @@ void score(Reading& reading, const WorkingPicture& work) {
                   subject_score(reading, work) * agreement_with(work.told, reading.body);
 }
 
-double Reading::angle_rad() const {
-  const bool l = left.status == FlankStatus::ok;
-  const bool r = right.status == FlankStatus::ok;
-  if (l && r) return (left.angle_rad + right.angle_rad) / 2;
-  return l ? left.angle_rad : r ? right.angle_rad : 0;
-}
+double Reading::angle_rad() const { return mean_angle_rad(left, right); }
 
 namespace {
 
@@ -137,7 +132,10 @@ Reading read_body(const Segmentation& segmentation, Body body, const WorkingPict
   reading.profile = upper_profile(reading.body, segmentation, work);
   if (reading.profile.size() < 10) return reading;
   reading.grain = grain_size(work, reading.body.mask);
-  FlankOptions flank{options.window_from, options.window_to, true, reading.grain, options.seed};
+  FlankOptions flank{.window_from = options.window_from,
+                     .window_to = options.window_to,
+                     .grain = reading.grain,
+                     .seed = options.seed};
   reading.left = fit_flank(reading.profile, Side::left, flank);
   ++flank.seed;
   reading.right = fit_flank(reading.profile, Side::right, flank);

@@ -34,14 +34,19 @@ SelectedCandidate read_by_paper(const WorkingPicture& work, const MeasureOptions
   if (reading.body.mask.empty()) return choice;
   reading.profile = upper_profile(reading.body, reading.segmentation, work);
   if (reading.profile.size() < 10) return choice;
-  FlankOptions flank{options.window_from, options.window_to, false, std::nullopt, options.seed};
+  const FlankOptions flank{.window_from = options.window_from,
+                           .window_to = options.window_to,
+                           .leave_apron_out = false,
+                           .is_robust = false,
+                           .grain = {},
+                           .seed = options.seed};
   reading.left = fit_flank(reading.profile, Side::left, flank);
   reading.right = fit_flank(reading.profile, Side::right, flank);
-  for (FlankFit* side : {&reading.left, &reading.right}) {
-    side->shown = side->least_squares;
-    side->angle_rad = std::atan(-side->least_squares.slope);
-  }
   score(reading, work);
+  for (DefinedFlanks& flanks :
+       other_flanks({reading.profile, reading.left, reading.right, std::nullopt})) {
+    choice.others.push_back({.flanks = std::move(flanks), .disagreement = {}});
+  }
   return choice;
 }
 
@@ -136,9 +141,9 @@ class PitchCorrection {
 };
 
 /// The side in the picture's own pixels, its angle corrected for the camera's pitch.
-Flank flank_of(const Reading& reading, Side side, const WorkingPicture& work, double half_width_rad,
-               const PitchCorrection& correction) {
-  const FlankFit& fit = reading.flank(side);
+/// @param fit  of the reading's edge, by whichever definition
+Flank flank_of(const FlankFit& fit, const Reading& reading, Side side, const WorkingPicture& work,
+               double half_width_rad, const PitchCorrection& correction) {
   Flank flank;
   flank.status = fit.status;
   flank.reason = fit.reason;
@@ -194,26 +199,82 @@ std::vector<Point> outline_of(const cv::Mat1b& mask, const WorkingPicture& work)
   return outline;
 }
 
+bool has_usual_window(const MeasureOptions& options) {
+  const MeasureOptions usual;
+  return options.window_from == usual.window_from && options.window_to == usual.window_to;
+}
+
+/// Empty: none of those with a name.
+std::string definition_of(const MeasureOptions& options) {
+  const bool is_named = options.method == Method::automatic && has_usual_window(options);
+  return is_named ? std::string(base::definition_meant(options.definition)) : std::string();
+}
+
+std::array<double, 2> window_of(const MeasureOptions& options) {
+  if (base::is_usual_definition(options.definition)) {
+    return {options.window_from, options.window_to};
+  }
+  return base::find_definition(options.definition)->window;
+}
+
+/// A reading's angle with its interval.
+NamedAngle named_angle(const base::AngleDefinition& definition, double apparent_rad, double own_rad,
+                       const PitchCorrection& correction) {
+  return {.name = std::string(definition.name),
+          .description = std::string(definition.description),
+          .angle_rad = correction.angle_rad(apparent_rad),
+          .uncertainty_rad = correction.half_width_rad(apparent_rad, own_rad),
+          .own_uncertainty_rad = own_rad,
+          .camera_uncertainty_rad = correction.camera_rad(apparent_rad)};
+}
+
+/// The angle and its sides by the definition that was asked for, and by all others. Nothing where
+/// the edge has no angle by that.
+void add_angles(ReposeAngle& result, const SelectedCandidate& choice, const WorkingPicture& work,
+                const PitchCorrection& correction) {
+  const Reading& best = choice.best;
+  const auto show = [&](const FlankFit& left, const FlankFit& right, const Uncertainty& u) {
+    result.left = flank_of(left, best, Side::left, work, u.left_rad, correction);
+    result.right = flank_of(right, best, Side::right, work, u.right_rad, correction);
+    if (!best.has_flank()) return;
+    const double apparent_rad = mean_angle_rad(left, right);
+    result.angle_rad = correction.angle_rad(apparent_rad);
+    result.uncertainty_rad = correction.half_width_rad(apparent_rad, u.mean_rad);
+    result.own_uncertainty_rad = u.mean_rad;
+    result.camera_uncertainty_rad = correction.camera_rad(apparent_rad);
+  };
+  const Uncertainty usual = uncertainty_of(choice);
+  if (base::is_usual_definition(result.definition)) {
+    show(best.left, best.right, usual);
+  } else if (best.has_flank()) {
+    result.definitions.push_back(
+        named_angle(base::kUsualDefinition, best.angle_rad(), usual.mean_rad, correction));
+  }
+  for (const SelectedFlanks& other : choice.others) {
+    const DefinedFlanks& flanks = other.flanks;
+    const Uncertainty u = uncertainty_of(other, best);
+    if (flanks.definition->name == result.definition) {
+      show(flanks.left, flanks.right, u);
+    } else {
+      result.definitions.push_back(
+          named_angle(*flanks.definition, flanks.angle_rad(), u.mean_rad, correction));
+    }
+  }
+}
+
 /// Everything that was seen, in the picture's own pixels; judged later.
 ReposeAngle described(const SelectedCandidate& choice, const WorkingPicture& work,
                       const MeasureOptions& options) {
   const Reading& best = choice.best;
   ReposeAngle result;
   result.method = options.method;
-  result.window = {options.window_from, options.window_to};
+  result.definition = definition_of(options);
+  result.window = window_of(options);
   result.camera_pitch_rad = options.camera_pitch_rad;
   result.segmentation = best.segmentation.name;
   if (best.body.mask.empty() || best.profile.size() == 0) return result;
-  const Uncertainty u = uncertainty_of(choice);
   const PitchCorrection correction(best, work, options);
-  result.left = flank_of(best, Side::left, work, u.left_rad, correction);
-  result.right = flank_of(best, Side::right, work, u.right_rad, correction);
-  if (best.has_flank()) {
-    result.angle_rad = correction.angle_rad(best.angle_rad());
-    result.uncertainty_rad = correction.half_width_rad(best.angle_rad(), u.mean_rad);
-    result.own_uncertainty_rad = u.mean_rad;
-    result.camera_uncertainty_rad = correction.camera_rad(best.angle_rad());
-  }
+  add_angles(result, choice, work, correction);
   result.ground_tilt_rad = best.body.ground.tilt_rad();
   const GroundFrame ground(best.body.ground);
   result.ground = Segment{work.in_picture(ground.picture(best.profile.along.front(), 0)),
@@ -231,17 +292,14 @@ ReposeAngle described(const SelectedCandidate& choice, const WorkingPicture& wor
   result.base_px = (best.profile.along.back() - best.profile.along.front()) * work.shrink;
   if (best.grain) result.grain_px = *best.grain * work.shrink;
   result.loose_particles = count_strays(best.body, best.segmentation, work);
-  result.definitions = other_definitions(best);
-  for (NamedAngle& other : result.definitions) {
-    other.angle_rad = correction.angle_rad(other.angle_rad);
-  }
   return result;
 }
 
 ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
   ReposeAngle result;
   result.method = options.method;
-  result.window = {options.window_from, options.window_to};
+  result.definition = definition_of(options);
+  result.window = window_of(options);
   result.camera_pitch_rad = options.camera_pitch_rad;
   result.reason = fmt::format(
       "too little of the {} x {} pixels remains to measure in. Fix: use a picture of at least {} "
@@ -263,6 +321,21 @@ std::vector<base::Fault> MeasureOptions::problems() const {
              "must be two increasing fractions of the heap's height from 0 to 1, at least {} apart",
              kNarrowestWindow),
          .fix = "try 0.2,0.8."});
+  }
+  const auto add_definition = [&](std::string rule, std::string fix) {
+    errors.push_back({.subject = "definition",
+                      .value = fmt::format("= {}", definition),
+                      .rule = std::move(rule),
+                      .fix = std::move(fix)});
+  };
+  if (!definition.empty() && base::find_definition(definition) == nullptr) {
+    add_definition(fmt::format("must be one of {}", base::definition_names()),
+                   "give one of these.");
+  } else if (!definition.empty() && method == Method::paper) {
+    add_definition("the paper's method is a definition of its own",
+                   "leave one of them out; whole_flank is the line through the whole edge.");
+  } else if (!definition.empty() && !has_usual_window(*this)) {
+    add_definition("each definition has its own window", "leave one of them out.");
   }
   if (camera_pitch_rad && !(std::abs(*camera_pitch_rad) <= kLargestPitch_rad)) {
     errors.push_back(
@@ -300,7 +373,7 @@ std::vector<base::Fault> MeasureOptions::problems_in(int width, int height) cons
 
 std::optional<double> angle_by(const ReposeAngle& measured, std::string_view definition) {
   if (measured.status == MeasureStatus::refused) return std::nullopt;
-  if (base::is_usual_definition(definition)) return measured.angle_rad;
+  if (definition.empty() || definition == measured.definition) return measured.angle_rad;
   for (const NamedAngle& other : measured.definitions) {
     if (other.name == definition) return other.angle_rad;
   }

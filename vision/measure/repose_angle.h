@@ -37,6 +37,9 @@ struct MeasureOptions {
   /// values let in the spreading toe, higher ones the rounded crest; both flatten the line.
   double window_from = 0.2;
   double window_to = 0.8;
+  /// By which of base/angle_definition.h the angle is; empty: the usual one. Another has its own
+  /// window, and lines of its own.
+  std::string definition;
   /// Parts of the picture that are no evidence: timers, labels, hands [px of the picture].
   std::vector<Box> excluded;
   /// What a person says where the program does not see it.
@@ -117,6 +120,9 @@ struct NamedAngle {
   std::string name;         ///< of base/angle_definition.h: "height_over_base"
   std::string description;  ///< one line: what is divided by what
   double angle_rad = 0;
+  std::optional<double> uncertainty_rad = {};         ///< as of ReposeAngle, these three;
+  std::optional<double> own_uncertainty_rad = {};     ///< empty: of an outline, which has none
+  std::optional<double> camera_uncertainty_rad = {};  ///<
 };
 
 struct ReposeAngle {
@@ -134,6 +140,8 @@ struct ReposeAngle {
   std::optional<double>
       ground_tilt_rad;            ///< of the ground line in the picture, > 0: right end lower
   std::optional<Segment> ground;  ///< ground line over the heap's base [px]
+  /// Of base/angle_definition.h; empty: a window of one's own, or another method.
+  std::string definition;
   std::array<double, 2> window = {0.2, 0.8};
   Method method = Method::automatic;
   std::optional<double> camera_pitch_rad;  ///< as it was told
@@ -149,11 +157,11 @@ struct ReposeAngle {
   bool foot_occluded = false;       ///< the ground line is an edge behind the heap
   std::optional<double> grain_px;   ///< typical grain size, from the body's pattern
   int loose_particles = 0;          ///< grains lying apart from the body
-  std::vector<NamedAngle> definitions;  ///< height over base, half-height tangent, ...
+  std::vector<NamedAngle> definitions;  ///< the same heap by the others
 };
 
-/// The angle by a definition of base/angle_definition.h; empty: by the usual one. None where it
-/// could not be measured, as in pictures that are refused.
+/// The angle by a definition of base/angle_definition.h; empty: the one that it was measured by.
+/// None where it could not be measured, as in pictures that are refused.
 std::optional<double> angle_by(const ReposeAngle& measured, std::string_view definition);
 
 /// Measures one picture. Deterministic; safe to call from several threads at once. The first call

@@ -68,30 +68,35 @@ double side_95(const FlankFit& flank, const Reading& reading, double disagreemen
                    disagreement_rad});
 }
 
+/// @param best  the reading whose flanks these are, by whichever definition
+Uncertainty uncertainty_with(const FlankFit& left, const FlankFit& right,
+                             const Disagreement& disagreement, const Reading& best) {
+  const Ground& ground = best.body.ground;
+  Uncertainty u;
+  u.left_rad = side_95(left, best, disagreement.left_rad);
+  u.right_rad = side_95(right, best, disagreement.right_rad);
+  if (left.status == FlankStatus::ok && right.status == FlankStatus::ok) {
+    u.mean_rad =
+        (left.apron_rad + right.apron_rad) / 2 +
+        combined(
+            {grains_95(left, right), (window_95(left) + window_95(right)) / 2,
+             (unseen_foot_95(left, ground) + unseen_foot_95(right, ground)) / 2,
+             std::hypot(place_95(left, best.segmentation), place_95(right, best.segmentation)) / 2,
+             disagreement.mean_rad});
+  } else {
+    u.mean_rad = left.status == FlankStatus::ok ? u.left_rad : u.right_rad;
+  }
+  return u;
+}
+
 }  // namespace
 
 Uncertainty uncertainty_of(const SelectedCandidate& choice) {
-  const Reading& best = choice.best;
-  const Ground& ground = best.body.ground;
-  Uncertainty u;
-  u.left_rad = side_95(best.left, best, choice.left_disagreement_rad);
-  u.right_rad = side_95(best.right, best, choice.right_disagreement_rad);
-  const bool left = best.left.status == FlankStatus::ok;
-  const bool right = best.right.status == FlankStatus::ok;
-  if (left && right) {
-    u.mean_rad =
-        (best.left.apron_rad + best.right.apron_rad) / 2 +
-        combined({grains_95(best.left, best.right),
-                  (window_95(best.left) + window_95(best.right)) / 2,
-                  (unseen_foot_95(best.left, ground) + unseen_foot_95(best.right, ground)) / 2,
-                  std::hypot(place_95(best.left, best.segmentation),
-                             place_95(best.right, best.segmentation)) /
-                      2,
-                  choice.disagreement_rad});
-  } else {
-    u.mean_rad = left ? u.left_rad : u.right_rad;
-  }
-  return u;
+  return uncertainty_with(choice.best.left, choice.best.right, choice.disagreement, choice.best);
+}
+
+Uncertainty uncertainty_of(const SelectedFlanks& flanks, const Reading& best) {
+  return uncertainty_with(flanks.flanks.left, flanks.flanks.right, flanks.disagreement, best);
 }
 
 }  // namespace repose::vision

@@ -27,5 +27,7 @@ struct Uncertainty {
 /// both readings lie in the interval.
 /// Source: JCGM 100:2008 (GUM), 5.1.2 and G.4.1.
 Uncertainty uncertainty_of(const SelectedCandidate& choice);
+/// Of the best reading's flanks by another definition.
+Uncertainty uncertainty_of(const SelectedFlanks& flanks, const Reading& best);
 
 }  // namespace repose::vision

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "base/units.h"
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/reading.h"
@@ -95,7 +97,8 @@ std::string reason_against(const FlankFit& flank, Side side) {
 
 /// Adds what a user should know of a side, and flags what a person must look at. `result` has its
 /// intervals.
-void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
+/// @param fitted  by the definition that was asked for; `reading` has the flank by the usual one
+void warn_of_flank(ReposeAngle& result, const Reading& reading, const FlankFit& fitted, Side side) {
   const FlankFit& flank = reading.flank(side);
   const std::string_view name = name_of(side);
   if (flank.status != FlankStatus::ok) {
@@ -104,11 +107,11 @@ void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
                      flank.reason));
     return;
   }
-  if (flank.frame_cut) {
+  if (fitted.frame_cut) {
     note(result, "flank_cut_by_frame",
          fmt::format("The picture's edge cuts off the {} flank: it is fitted above {:.0f} % of the "
                      "height.",
-                     name, 100 * flank.window_from));
+                     name, 100 * fitted.window_from));
   }
   const Flank& shown = side == Side::left ? result.left : result.right;
   if (flank.apron && shown.apron) {
@@ -131,11 +134,11 @@ void warn_of_flank(ReposeAngle& result, const Reading& reading, Side side) {
                      name, flank.bend_rad > 0 ? "concave" : "convex",
                      std::abs(to_degrees(flank.bend_rad))));
   }
-  if (flank.window_spread_rad > shown.uncertainty_rad.value_or(0) + kUncoveredSpread_rad) {
+  if (fitted.window_spread_rad > shown.uncertainty_rad.value_or(0) + kUncoveredSpread_rad) {
     flag(result, "window_sensitive",
          fmt::format("The {} angle changes by {:.1f} degrees with the window, more than its "
                      "interval covers.",
-                     name, to_degrees(flank.window_spread_rad)));
+                     name, to_degrees(fitted.window_spread_rad)));
   }
 }
 
@@ -178,7 +181,7 @@ void refuse(ReposeAngle& result, std::string reason) {
 /// The boundary's quality, lowered when equally good segmentations disagree.
 double confidence_of(const SelectedCandidate& choice) {
   const double boundary = std::clamp(choice.best.score / 0.55, 0.0, 1.0);
-  const double disagreement = to_degrees(choice.disagreement_rad) / 2;
+  const double disagreement = to_degrees(choice.disagreement.mean_rad) / 2;
   return boundary * std::exp(-disagreement * disagreement);
 }
 
@@ -275,8 +278,9 @@ double tangent_chance_rad(const Reading& best) {
 }
 
 /// Adds what the other common definitions say where that lies outside the interval. A rounded crest
-/// and a toe move some of them on every heap; a hollow flank leaves open which one is meant.
-void warn_of_definitions(ReposeAngle& result, const Reading& best) {
+/// and a toe move some of them on every heap; a hollow flank leaves open which one is meant, unless
+/// that was said.
+void warn_of_definitions(ReposeAngle& result, const Reading& best, bool is_named) {
   const double angle = *result.angle_rad;
   double least = angle;
   double most = angle;
@@ -290,8 +294,8 @@ void warn_of_definitions(ReposeAngle& result, const Reading& best) {
   }
   const double interval = *result.uncertainty_rad;
   if (std::max(most - angle, angle - least) <= interval) return;
-  const bool is_open =
-      sure > interval + kFarApart_rad && (is_hollow(best.left) || is_hollow(best.right));
+  const bool is_open = !is_named && sure > interval + kFarApart_rad &&
+                       (is_hollow(best.left) || is_hollow(best.right));
   const auto tell = is_open ? flag : note;
   tell(result, "definitions_differ",
        fmt::format("Other definitions of the angle give {:.1f} to {:.1f} degrees: state yours when "
@@ -299,9 +303,16 @@ void warn_of_definitions(ReposeAngle& result, const Reading& best) {
                    to_degrees(least), to_degrees(most)));
 }
 
-void warn_of_angle(ReposeAngle& result, const Reading& best) {
+/// The sides by the definition that the angle is by.
+struct ShownFlanks {
+  const FlankFit& left;
+  const FlankFit& right;
+};
+
+void warn_of_angle(ReposeAngle& result, const Reading& best, const ShownFlanks& shown,
+                   bool is_named) {
   if (*result.uncertainty_rad > kWideInterval_rad) {
-    const double apron_rad = std::max(best.left.apron_rad, best.right.apron_rad);
+    const double apron_rad = std::max(shown.left.apron_rad, shown.right.apron_rad);
     const bool is_by_apron = apron_rad > *result.uncertainty_rad / 2;
     flag(result, "wide_interval",
          fmt::format("The angle is uncertain by ±{:.1f} degrees: {}.",
@@ -310,7 +321,7 @@ void warn_of_angle(ReposeAngle& result, const Reading& best) {
                                    "base as wide as the heap alone"
                                  : "measure more pictures of this heap, or a heap of more grains"));
   }
-  warn_of_definitions(result, best);
+  warn_of_definitions(result, best, is_named);
 }
 
 void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions& options) {
@@ -414,6 +425,21 @@ void warn_of_scene(ReposeAngle& result, const SelectedCandidate& choice,
 
 }  // namespace
 
+namespace {
+
+/// By the definition that was asked for; empty where the edge has no angle by that.
+std::optional<ShownFlanks> shown_flanks(const SelectedCandidate& choice,
+                                        const MeasureOptions& options) {
+  if (base::is_usual_definition(options.definition)) {
+    return ShownFlanks{choice.best.left, choice.best.right};
+  }
+  const SelectedFlanks* other = choice.by(options.definition);
+  if (other == nullptr) return std::nullopt;
+  return ShownFlanks{other->flanks.left, other->flanks.right};
+}
+
+}  // namespace
+
 void judge(ReposeAngle& result, const SelectedCandidate& choice, const MeasureOptions& options) {
   result.status = MeasureStatus::ok;
   result.outline_valid = false;
@@ -428,20 +454,28 @@ void judge(ReposeAngle& result, const SelectedCandidate& choice, const MeasureOp
     result.outline_valid = reason_to_doubt(choice, options).empty();
     return;
   }
+  const std::optional<ShownFlanks> shown = shown_flanks(choice, options);
+  if (!shown) {
+    refuse(result, fmt::format("{} is not defined here: a side's foot or crest is not seen. Fix: "
+                               "show the whole heap, or measure by {}.",
+                               options.definition, base::kUsualDefinition.name));
+    result.outline_valid = true;
+    return;
+  }
   if (result.confidence < kDoubtfulConfidence) {
     flag(result, "weak_edge",
          fmt::format("The heap's edge is uncertain (confidence {:.2f} of 1): check the overlay.",
                      result.confidence));
   }
-  warn_of_flank(result, choice.best, Side::left);
-  warn_of_flank(result, choice.best, Side::right);
+  warn_of_flank(result, choice.best, shown->left, Side::left);
+  warn_of_flank(result, choice.best, shown->right, Side::right);
   if (choice.best.profile.leaves_frame_top) {
     flag(result, "crest_cut",
          "The box cuts off the crest: the heap's height is taken to end there.");
   }
   warn_of_hints(result, options);
   warn_of_likeness(result, choice, options);
-  warn_of_angle(result, choice.best);
+  warn_of_angle(result, choice.best, *shown, !options.definition.empty());
   warn_of_size(result, choice.best, options);
   warn_of_scene(result, choice, options);
   warn_of_unequal_flanks(result);
