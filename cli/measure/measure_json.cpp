@@ -203,6 +203,7 @@ Json line_json(const std::optional<vision::Segment>& line) {
 Json hints_json(const vision::Hints& hints) {
   if (hints.empty() && hints.source.empty()) return nullptr;
   return {{"heap", box_json(hints.heap)},
+          {"half", hints.half ? Json(name_of(*hints.half)) : Json()},
           {"ground", line_json(hints.ground)},
           {"keep", places_json(hints.keep)},
           {"drop", places_json(hints.drop)},

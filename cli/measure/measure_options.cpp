@@ -54,6 +54,9 @@ void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
     const auto [x, y, width, height] = *box;
     hints.heap = vision::Box{.x = x, .y = y, .width = width, .height = height};
   }
+  hints.half =
+      read_choice<vision::Side>({"--half", arguments.half, plan.errors},
+                                {{"left", vision::Side::left}, {"right", vision::Side::right}});
   if (const auto line = read_line({"--ground", arguments.ground, plan.errors})) {
     const auto [x1, y1, x2, y2] = *line;
     hints.ground = vision::Segment{{x1, y1}, {x2, y2}};
@@ -203,6 +206,7 @@ Command measure_command() {
            {"--definition", "NAME", "Which angle it is (flank_20_80)", &given->definition},
            {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
            {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
+           {"--half", "left|right", "Side of its one flank; a wall on the other", &given->half},
            {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},
            {"--keep", "X,Y", "Point on the heap; repeatable", &given->keep},
            {"--drop", "X,Y", "Point off the heap; repeatable", &given->drop},

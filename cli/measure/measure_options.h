@@ -32,6 +32,7 @@ struct MeasureArguments {
   std::string definition;
   std::vector<std::string> exclude;
   std::string heap;
+  std::string half;
   std::string ground;
   std::vector<std::string> keep;
   std::vector<std::string> drop;

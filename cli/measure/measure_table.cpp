@@ -87,6 +87,7 @@ void add_measuring(const vision::MeasureOptions& told, Options& options) {
   }
   if (!base::is_usual_definition(told.definition)) options.add("--definition", told.definition);
   options.add_each("--exclude", told.excluded);
+  if (told.hints.half) options.add("--half", name_of(*told.hints.half));
   options.add_each("--keep", told.hints.keep);
   options.add_each("--drop", told.hints.drop);
   if (!told.hints.mask_file.empty()) {

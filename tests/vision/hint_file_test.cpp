@@ -54,6 +54,7 @@ TEST_F(HintFile, WithoutOneNothingChanges) {
 TEST_F(HintFile, WhatIsSavedIsReadAgain) {
   MeasureOptions options;
   options.hints.heap = Box{.x = 1, .y = 2, .width = 30, .height = 40};
+  options.hints.half = Side::right;
   options.hints.ground = Segment{{0, 41.5}, {31, 40}};
   options.hints.keep = {{10, 20}, {11, 21.25}};
   options.hints.drop = {{3, 4}};
@@ -68,6 +69,7 @@ TEST_F(HintFile, WhatIsSavedIsReadAgain) {
     ASSERT_TRUE(again.hints.heap && again.hints.ground && again.camera_pitch_rad);
     EXPECT_EQ(again.hints.heap->height, 40);
     EXPECT_EQ(again.hints.ground->from.y, 41.5);
+    EXPECT_EQ(again.hints.half, Side::right);
     EXPECT_THAT(again.hints.keep, SizeIs(2));
     EXPECT_EQ(again.hints.keep.at(1).y, 21.25);
     EXPECT_THAT(again.hints.drop, SizeIs(1));
@@ -145,6 +147,7 @@ TEST_F(HintFile, AllThatIsWrongIsSaidAtOnce) {
   EXPECT_THAT(complaint("square_mm = 20\n"), HasSubstr("it needs board = true"));
   EXPECT_THAT(complaint("camera_file = \"none.toml\"\n"), HasSubstr("none.toml"));
   EXPECT_THAT(complaint("heap = [1, 2\n"), HasSubstr("must be TOML"));
+  EXPECT_THAT(complaint("half = \"both\"\n"), HasSubstr("must be \"left\" or \"right\""));
   EXPECT_THAT(complaint("mask = \"nowhere.png\"\n"), HasSubstr("nowhere.png"));
 }
 

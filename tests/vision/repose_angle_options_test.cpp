@@ -267,5 +267,43 @@ TEST(PaperMethod, GivesAnAngleOrARefusalOfAPhoto) {
   }
 }
 
+bool has_warning(const ReposeAngle& result, const std::string& code) {
+  return std::ranges::any_of(result.warnings,
+                             [&](const Warning& warning) { return warning.code == code; });
+}
+
+TEST(HalfHeap, ItsWallIsNeitherMeasuredNorMissed) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const auto heap = drawn("half_heap", seed, kUsualWidth);
+    const ReposeAngle found = measure_repose_angle(heap.picture);
+    MeasureOptions options;
+    options.hints.half = heap.left_rad ? Side::left : Side::right;
+    const ReposeAngle said = measure_repose_angle(heap.picture, options);
+    ASSERT_TRUE(said.angle_rad) << seed << ": " << said.reason;
+    EXPECT_EQ(said.angle_rad, found.angle_rad) << seed;
+    EXPECT_TRUE(has_warning(found, "one_flank")) << seed;
+    EXPECT_FALSE(has_warning(said, "one_flank")) << seed;
+    EXPECT_FALSE(has_warning(said, "second_flank")) << seed;
+    EXPECT_TRUE(has_warning(said, "hints")) << seed;
+
+    options.hints.half = heap.left_rad ? Side::right : Side::left;
+    const ReposeAngle mistaken = measure_repose_angle(heap.picture, options);
+    EXPECT_EQ(mistaken.status, MeasureStatus::refused) << seed;
+    EXPECT_NE(mistaken.reason.find("said to end at a wall"), std::string::npos) << mistaken.reason;
+  }
+}
+
+TEST(HalfHeap, AWallThatSlopesLikeAFlankIsFlagged) {
+  const auto heap = drawn("clean", 2, kUsualWidth);
+  const ReposeAngle whole = measure_repose_angle(heap.picture);
+  MeasureOptions options;
+  options.hints.half = Side::right;
+  const ReposeAngle half = measure_repose_angle(heap.picture, options);
+  EXPECT_EQ(half.status, MeasureStatus::flagged);
+  EXPECT_TRUE(has_warning(half, "second_flank"));
+  EXPECT_EQ(half.left.status, FlankStatus::absent);
+  EXPECT_NEAR(deg(half.angle_rad), deg(whole.right.angle_rad), .3);
+}
+
 }  // namespace
 }  // namespace repose::vision

@@ -61,6 +61,7 @@ class HintReader {
   /// A number above 0.
   std::optional<double> positive(const char* key);
   std::optional<bool> truth(const char* key);
+  std::optional<Side> side(const char* key);
   std::string file_name(const char* key);
 
   void refuse_other_keys(std::initializer_list<std::string_view> known);
@@ -120,6 +121,16 @@ std::optional<bool> HintReader::truth(const char* key) {
   const auto value = node->value<bool>();
   if (!value) add(*node, key, "", "must be true or false");
   return value;
+}
+
+std::optional<Side> HintReader::side(const char* key) {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return std::nullopt;
+  for (const Side side : {Side::left, Side::right}) {
+    if (node->value<std::string>() == name_of(side)) return side;
+  }
+  add(*node, key, "", "must be \"left\" or \"right\"");
+  return std::nullopt;
 }
 
 std::string HintReader::file_name(const char* key) {
@@ -322,13 +333,16 @@ PictureSettings with_saved_hints(PictureSettings given, const fs::path& picture)
   if (!text) return given;
   const toml::table table = parse_hints(*text, file);
   HintReader reader(table, file);
-  reader.refuse_other_keys({"heap", "ground", "keep", "drop", "mask", "exclude", "pitch_deg",
-                            "scale", "board", "square_mm", "board_behind_mm", "camera_file"});
+  reader.refuse_other_keys({"heap", "half", "ground", "keep", "drop", "mask", "exclude",
+                            "pitch_deg", "scale", "board", "square_mm", "board_behind_mm",
+                            "camera_file"});
   MeasureOptions& options = given.measuring;
   Hints& hints = options.hints;
   if (changes_angles(table)) hints.source = file.filename().string();
   const auto heap = reader.numbers<4>("heap", kBox);
   if (heap && !hints.heap) hints.heap = box_of(*heap);
+  const std::optional<Side> half = reader.side("half");
+  if (half && !hints.half) hints.half = half;
   const auto ground = reader.numbers<4>("ground", kLine);
   if (ground && !hints.ground) {
     const auto& [x1, y1, x2, y2] = *ground;
@@ -359,6 +373,7 @@ void save_hints(const PictureSettings& settings, const fs::path& picture) {
     text += fmt::format("{} = {}\n", key, value);
   };
   if (hints.heap) add("heap", text_of(*hints.heap));
+  if (hints.half) add("half", fmt::format("\"{}\"", name_of(*hints.half)));
   if (hints.ground) {
     const auto& [from, to] = *hints.ground;
     add("ground",

@@ -11,8 +11,6 @@
 
 namespace repose::vision {
 
-enum class Side { left, right };
-
 /// A line that falls less than this is level: where it has a height says nothing.
 inline constexpr double kFlattestSlope = 0.02;
 

@@ -76,12 +76,13 @@ std::string count_of(std::size_t places, const char* where) {
 }  // namespace
 
 bool Hints::empty() const {
-  return !heap && !ground && keep.empty() && drop.empty() && mask.empty();
+  return !heap && !half && !ground && keep.empty() && drop.empty() && mask.empty();
 }
 
 std::string Hints::text() const {
   std::vector<std::string> parts;
   if (heap) parts.emplace_back("box around the heap");
+  if (half) parts.push_back(fmt::format("half a heap, with its {} flank", name_of(*half)));
   if (ground) parts.emplace_back("ground line");
   if (!keep.empty()) parts.push_back(count_of(keep.size(), "on"));
   if (!drop.empty()) parts.push_back(count_of(drop.size(), "off"));
@@ -107,6 +108,7 @@ std::vector<base::Fault> problems_of(const Hints& hints, int width, int height) 
 
 Hints hints_within(const Hints& hints, const Box& box) {
   Hints inside{.heap = {},
+               .half = hints.half,
                .ground = hints.ground,
                .keep = moved(hints.keep, box),
                .drop = moved(hints.drop, box),

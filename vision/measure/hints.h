@@ -10,10 +10,18 @@
 
 namespace repose::vision {
 
+/// Of a heap, as the picture shows it.
+enum class Side { left, right };
+
+inline const char* name_of(Side side) { return side == Side::left ? "left" : "right"; }
+
 /// What a person says of one picture. Positions in the picture's pixels.
 struct Hints {
   /// Around the heap: nothing outside counts, and the heap's height ends where the box does.
   std::optional<Box> heap;
+  /// The one side with a flank, of a heap whose other side stands against a wall, a glass or the
+  /// box that it was poured into. None: both sides are looked at.
+  std::optional<Side> half;
   /// Two points of the line that the heap stands on.
   std::optional<Segment> ground;
   std::vector<Point> keep;  ///< places on the heap

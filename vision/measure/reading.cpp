@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "vision/measure/grain.h"
@@ -122,6 +123,16 @@ void score(Reading& reading, const WorkingPicture& work) {
 
 double Reading::angle_rad() const { return mean_angle_rad(left, right); }
 
+void leave_out_wall(Reading& reading, const Hints& hints) {
+  if (!hints.half) return;
+  reading.walled = *hints.half == Side::left ? Side::right : Side::left;
+  FlankFit& wall = reading.walled == Side::left ? reading.left : reading.right;
+  constexpr double kWall_rad = 60 * std::numbers::pi / 180;  // steeper than loose grains lie
+  reading.is_wall_a_flank = wall.status == FlankStatus::ok && wall.angle_rad < kWall_rad;
+  wall = {};
+  wall.reason = "the heap is said to end at a wall there";
+}
+
 namespace {
 
 Reading read_body(const Segmentation& segmentation, Body body, const WorkingPicture& work,
@@ -139,6 +150,7 @@ Reading read_body(const Segmentation& segmentation, Body body, const WorkingPict
   reading.left = fit_flank(reading.profile, Side::left, flank);
   ++flank.seed;
   reading.right = fit_flank(reading.profile, Side::right, flank);
+  leave_out_wall(reading, options.hints);
   score(reading, work);
   return reading;
 }

@@ -16,10 +16,13 @@ struct Reading {
   Profile profile;
   FlankFit left;
   FlankFit right;
-  std::optional<double> grain;  ///< working px
-  double edge_contrast = 0;     ///< step across the edge over the scatter beside it
-  double edge_sharpness = 0;    ///< share of the step within three pixels: a shadow's is soft
-  double score = 0;             ///< 0 to 1: boundary times plausibility; 0 when no flank was found
+  /// The side that is said to be no flank: it is not fitted.
+  std::optional<Side> walled;
+  bool is_wall_a_flank = false;  ///< ... though it looks like one
+  std::optional<double> grain;   ///< working px
+  double edge_contrast = 0;      ///< step across the edge over the scatter beside it
+  double edge_sharpness = 0;     ///< share of the step within three pixels: a shadow's is soft
+  double score = 0;              ///< 0 to 1: boundary times plausibility; 0 when no flank was found
 
   const FlankFit& flank(Side side) const { return side == Side::left ? left : right; }
   bool has_flank() const {
@@ -36,6 +39,9 @@ Reading read_heap(const Segmentation& segmentation, const WorkingPicture& work,
 /// Reads the heap anew by another segmentation, on the ground line of an earlier reading.
 Reading read_again(const Reading& earlier, const Segmentation& segmentation,
                    const WorkingPicture& work, const MeasureOptions& options);
+
+/// Takes the side away that is said to be a wall.
+void leave_out_wall(Reading& reading, const Hints& hints);
 
 /// Fills in the reading's edge contrast, edge sharpness and score from the picture beside the edge.
 void score(Reading& reading, const WorkingPicture& work);

@@ -42,6 +42,7 @@ SelectedCandidate read_by_paper(const WorkingPicture& work, const MeasureOptions
                            .seed = options.seed};
   reading.left = fit_flank(reading.profile, Side::left, flank);
   reading.right = fit_flank(reading.profile, Side::right, flank);
+  leave_out_wall(reading, options.hints);
   score(reading, work);
   for (DefinedFlanks& flanks :
        other_flanks({reading.profile, reading.left, reading.right, std::nullopt})) {

@@ -48,8 +48,6 @@ constexpr double kDoubtfulBend_rad = 10 * kDegree;
 
 constexpr double kUncoveredSpread_rad = 1 * kDegree;  // beyond the interval
 
-std::string_view name_of(Side side) { return side == Side::left ? "left" : "right"; }
-
 /// Largest change of the angle with what counts as flank: another window, or a high foot with it.
 double spread_rad(const FlankFit& flank) {
   const bool is_high = flank.apron && flank.apron->is_high;
@@ -101,6 +99,15 @@ std::string reason_against(const FlankFit& flank, Side side) {
 void warn_of_flank(ReposeAngle& result, const Reading& reading, const FlankFit& fitted, Side side) {
   const FlankFit& flank = reading.flank(side);
   const std::string_view name = name_of(side);
+  if (reading.walled == side) {
+    if (reading.is_wall_a_flank) {
+      flag(result, "second_flank",
+           fmt::format("The {} side slopes like a flank, though the heap was said to end at a wall "
+                       "there: check the overlay.",
+                       name));
+    }
+    return;
+  }
   if (flank.status != FlankStatus::ok) {
     note(result, flank.status == FlankStatus::truncated ? "flank_truncated" : "one_flank",
          fmt::format("No {} flank: {}. The angle is that of the other side alone.", name,
