@@ -339,12 +339,40 @@ cv::Mat read_converted(const File& file, const Source& source, cv::Size size, in
   return bgr;
 }
 
+/// Scanners and editors write pages of one file beside each other: previews, which are smaller, or
+/// further pictures, of which only a person knows which one is meant.
+void turn_to_largest_page(const File& file) {
+  constexpr int kMostPages = 10000;
+  std::int64_t largest = -1;
+  std::uint32_t width = 0, height = 0;
+  int page_of_largest = 0, as_large = 0, pages = 0;
+  do {
+    const auto w = tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
+    const auto h = tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
+    const std::int64_t pixels = std::int64_t{w} * h;
+    if (pixels > largest) {
+      largest = pixels, width = w, height = h;
+      page_of_largest = pages;
+      as_large = 0;
+    }
+    as_large += pixels == largest ? 1 : 0;
+  } while (++pages < kMostPages && TIFFReadDirectory(file.get()) != 0);
+  if (as_large > 1) {
+    throw base::InputError(
+        {.value = fmt::format("holds {} pages of {} x {} pixels", as_large, width, height),
+         .rule = "one picture a file, with smaller previews at most",
+         .fix = "save the page that shows the heap as a file of its own."});
+  }
+  if (pages > 1) TIFFSetDirectory(file.get(), static_cast<tdir_t>(page_of_largest));
+}
+
 }  // namespace
 
 Picture decode_tiff(std::span<const std::uint8_t> bytes) {
   Source source{.bytes = bytes, .position = 0, .error = {}};
   const File file = open(source);
   if (!file) refuse_damaged(source);
+  turn_to_largest_page(file);
   const auto width = tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
   const auto height = tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
   check_claimed_size(width, height);

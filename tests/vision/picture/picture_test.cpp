@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
@@ -11,6 +12,7 @@
 #include "base/input_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/vision/picture/coded_pictures.h"
+#include "vision/picture/opencv.h"
 
 namespace repose::vision {
 namespace {
@@ -237,6 +239,24 @@ Bytes with_change(Bytes bytes, std::size_t at, int change) {
   bytes[at] = static_cast<std::uint8_t>(number);
   bytes[at + 1] = static_cast<std::uint8_t>(number / 256);
   return bytes;
+}
+
+TEST_F(PictureFile, OfATiffsPagesTheLargestIsThePicture) {
+  const auto file = folder_.path() / "pages.tif";
+  const std::vector<cv::Mat> with_preview = {noise(16, 12), noise(64, 48), noise(32, 24)};
+  cv::imwritemulti(file.string(), with_preview);
+  const Picture picture = read_picture(file);
+  EXPECT_EQ(picture.width, 64);
+  EXPECT_EQ(cv::norm(mat_of(picture), with_preview[1], cv::NORM_INF), 0);
+
+  cv::imwritemulti(file.string(),
+                   std::vector<cv::Mat>{noise(64, 48), noise(16, 12), noise(64, 48)});
+  try {
+    read_picture(file);
+    FAIL() << "which of the two is the heap's, only a person knows";
+  } catch (const base::InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("2 pages of 64 x 48 pixels"), HasSubstr("Fix: ")));
+  }
 }
 
 /// Where the value of a tag stands in a little-endian TIFF.
