@@ -85,7 +85,7 @@ MeasuredFile measured_file(const fs::path& file, const std::string& definition) 
         definition);
   }
   return {.file = file,
-          .pixels = seen.is_film ? std::string() : vision::pixels_of(seen.picture),
+          .pixels = seen.picture.empty() || seen.is_film ? std::string() : vision::pixels_of(seen.picture),
           .reading = std::move(reading)};
 }
 
