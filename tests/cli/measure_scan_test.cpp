@@ -50,7 +50,7 @@ TEST_F(MeasureScan, GivesTheKeysOfAPictureAndItsOwn) {
 TEST_F(MeasureScan, TellsItsSizesAndWhyThereAreNone) {
   EXPECT_THAT(run({"heap.ply", "--unit", "mm"}).out,
               AllOf(HasSubstr("72 azimuths"), HasSubstr("volume "), HasSubstr(" ml")));
-  EXPECT_THAT(run({"heap.ply"}).out, AllOf(HasSubstr("no sizes"), HasSubstr("--unit mm")));
+  EXPECT_THAT(run({"heap.ply"}).out, AllOf(HasSubstr("no sizes"), HasSubstr("(--unit")));
 }
 
 TEST_F(MeasureScan, DrawsAnOverlayAndWritesARowAndAPage) {

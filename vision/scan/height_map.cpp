@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -23,11 +24,65 @@ bool is_wanted(std::size_t number, Points which) {
   return is_odd == (which == Points::odd);
 }
 
-/// Median height of each cell's points, and how many there are.
+constexpr int kParts = 3;  // of a cell along each of its sides
+
+/// A point in its cell.
+struct PlacedPoint {
+  float height = 0;
+  std::uint8_t part = 0;  ///< of the cell
+};
+
+float median_height(std::span<PlacedPoint> points, std::vector<float>& scratch) {
+  scratch.clear();
+  for (const PlacedPoint& point : points) scratch.push_back(point.height);
+  const auto middle = scratch.begin() + std::ssize(scratch) / 2;
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  if (scratch.size() % 2 != 0) return *middle;
+  return (*middle + *std::max_element(scratch.begin(), middle)) / 2;
+}
+
+/// Mean over the cell's parts of the mean of their points, without those that lie farther from the
+/// median than four robust standard deviations.
+float height_of(std::span<PlacedPoint> points, std::vector<float>& scratch) {
+  constexpr std::size_t kFewToJudge = 4;
+  constexpr float kFarthest = 4 * 1.4826F;
+  const float middle = median_height(points, scratch);
+  if (points.size() < kFewToJudge) return middle;
+  for (float& height : scratch) height = std::abs(height - middle);
+  const auto half = scratch.begin() + std::ssize(scratch) / 2;
+  std::nth_element(scratch.begin(), half, scratch.end());
+  const float farthest = kFarthest * *half;
+  std::array<double, kParts * kParts> sum{};
+  std::array<int, kParts * kParts> count{};
+  for (const PlacedPoint& point : points) {
+    if (std::abs(point.height - middle) > farthest) continue;
+    sum.at(point.part) += static_cast<double>(point.height);
+    ++count.at(point.part);
+  }
+  double mean = 0;
+  int parts = 0;
+  for (std::size_t k = 0; k < sum.size(); ++k) {
+    if (count.at(k) == 0) continue;
+    mean += sum.at(k) / count.at(k);
+    ++parts;
+  }
+  return parts > 0 ? static_cast<float>(mean / parts) : middle;
+}
+
+/// Which part of its cell a place lies in.
+std::uint8_t part_of_cell(const MapPlan& plan, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d at = (place - plan.corner) / plan.cell;
+  const auto part = [](double along) {
+    return std::min(kParts - 1, static_cast<int>((along - std::floor(along)) * kParts));
+  };
+  return static_cast<std::uint8_t>(part(at.y()) * kParts + part(at.x()));
+}
+
+/// The height of each cell, and how many points it has.
 void fill_cells(const std::vector<Eigen::Vector3d>& points, const ScanFrame& frame, double lowest,
                 Points which, HeightMap& map) {
   const std::size_t cells = map.height.size();
-  std::vector<std::pair<std::uint32_t, float>> placed;
+  std::vector<std::pair<std::uint32_t, PlacedPoint>> placed;
   std::vector<std::uint32_t> below(cells, 0);
   placed.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -39,24 +94,20 @@ void fill_cells(const std::vector<Eigen::Vector3d>& points, const ScanFrame& fra
       ++below[cell];
       continue;
     }
-    placed.emplace_back(static_cast<std::uint32_t>(cell), static_cast<float>(place.z()));
+    placed.emplace_back(static_cast<std::uint32_t>(cell),
+                        PlacedPoint{.height = static_cast<float>(place.z()),
+                                    .part = part_of_cell(map.plan, place.head<2>())});
     ++map.points[cell];
   }
   std::vector<std::size_t> begin(cells + 1, 0);
   for (std::size_t k = 0; k < cells; ++k) begin[k + 1] = begin[k] + map.points[k];
-  std::vector<float> sorted(placed.size());
+  std::vector<PlacedPoint> sorted(placed.size());
   std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const auto& [cell, height] : placed) sorted[next[cell]++] = height;
+  for (const auto& [cell, point] : placed) sorted[next[cell]++] = point;
+  std::vector<float> scratch;
   for (std::size_t k = 0; k < cells; ++k) {
     if (map.points[k] <= below[k]) continue;  // none, or strays over something lower
-    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[k]);
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[k + 1]);
-    const auto middle = first + (last - first) / 2;
-    std::nth_element(first, middle, last);
-    map.height[k] = *middle;
-    if ((last - first) % 2 == 0) {
-      map.height[k] = (map.height[k] + *std::max_element(first, middle)) / 2;
-    }
+    map.height[k] = height_of(std::span(sorted).subspan(begin[k], map.points[k]), scratch);
     map.kind[k] = CellKind::seen;
   }
 }

@@ -160,25 +160,43 @@ double sd_of(const std::vector<double>& values) {
   return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
-/// Standard error of the mean angle from the points' noise: half of what the two halves of the
-/// points differ by has the error of the whole.
-double noise_error_rad(const std::vector<Eigen::Vector3d>& points, const Survey& survey,
-                       const ScanOptions& options, double lowest) {
-  std::array<Slices, 2> halves;
-  for (const auto& [half, which] : {std::pair(0, Points::even), {1, Points::odd}}) {
-    StandingScan heap = survey.heap;
-    heap.map = height_map(points, survey.frame, survey.heap.map.plan, lowest, which);
-    halves.at(static_cast<std::size_t>(half)) = slices_of(heap, options);
+/// The same heap on a map of half of its points, with cells twice as large, so that as many points
+/// are in each.
+StandingScan half_of(const std::vector<Eigen::Vector3d>& points, const Survey& survey,
+                     Points which) {
+  const MapPlan& plan = survey.heap.map.plan;
+  MapPlan wider = plan;
+  wider.side = static_cast<int>(std::ceil(plan.side / std::numbers::sqrt2));
+  wider.cell = plan.side * plan.cell / wider.side;
+  const double lowest = -std::max(survey.heap.height, 8 * survey.plane.noise);
+  StandingScan half{.map = height_map(points, survey.frame, wider, lowest, which),
+                    .base = {},
+                    .axis = survey.heap.axis,
+                    .height = survey.heap.height};
+  for (std::size_t k = 0; k < half.map.height.size(); ++k) {
+    half.base.push_back(survey.heap.base[survey.heap.map.cell_of(half.map.middle(k))]);
   }
-  std::vector<double> differences;
+  return half;
+}
+
+/// Standard error of the mean angle from the points' noise: half of what the two halves of the
+/// points differ by has the error of the whole. The azimuths' scatter is a robust one, since what
+/// happens to a single slice of half of the points need not happen to the whole.
+double noise_error_rad(const std::vector<Eigen::Vector3d>& points, const Survey& survey,
+                       const ScanOptions& options) {
+  const Slices one = slices_of(half_of(points, survey, Points::even), options);
+  const Slices other = slices_of(half_of(points, survey, Points::odd), options);
+  std::vector<double> differences, sizes;
   for (std::size_t k = 0; k < kAzimuths; ++k) {
-    const auto& one = halves[0].all[k].azimuth.angle_rad;
-    const auto& other = halves[1].all[k].azimuth.angle_rad;
-    if (one && other) differences.push_back((*one - *other) / 2);
+    const auto& first = one.all[k].azimuth.angle_rad;
+    const auto& second = other.all[k].azimuth.angle_rad;
+    if (!first || !second) continue;
+    differences.push_back((*first - *second) / 2);
+    sizes.push_back(std::abs(differences.back()));
   }
   if (differences.empty()) return 0;
   const auto n = static_cast<double>(differences.size());
-  return std::hypot(sd_of(differences) / std::sqrt(n), mean_of(differences));
+  return std::hypot(kMadToSigma * median(sizes) / std::sqrt(n), median(differences));
 }
 
 /// Half-width of the mean's 95 % interval for azimuths that were not seen.
@@ -207,8 +225,7 @@ double half_width_rad(const std::vector<Eigen::Vector3d>& points, const Survey& 
   const double level = survey.level_95();
   double squares = kFloor_rad * kFloor_rad;
   const auto add = [&](double part) { squares += part * part; };
-  const double lowest = -std::max(survey.heap.height, 8 * survey.plane.noise);
-  add(base::kNormal95 * noise_error_rad(points, survey, options, lowest));
+  add(base::kNormal95 * noise_error_rad(points, survey, options));
   add(unseen_95(slices));
   if (level > 1e-5 * survey.heap.height) {
     const auto up = slices_of(lifted(survey.heap, level), options).mean();

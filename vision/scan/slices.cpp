@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <string>
@@ -17,7 +18,8 @@ namespace repose::vision {
 namespace {
 
 constexpr double kStep_rad = 2 * std::numbers::pi / kAzimuths;
-constexpr double kMostUnseen = 0.3;  // of the window's length in a slice
+constexpr double kSteepestSlice_rad = 70 * kDegree;  // nothing loose stands steeper
+constexpr double kMostUnseen = 0.3;                  // of the window's length in a slice
 
 Eigen::Vector2d place_at(const StandingScan& heap, double azimuth_rad, double radius) {
   return heap.axis + radius * Eigen::Vector2d(std::cos(azimuth_rad), std::sin(azimuth_rad));
@@ -30,36 +32,62 @@ struct HalfProfile {
   double unseen = 0;  ///< which part of the window's points are in holes
 };
 
-/// Mean of three half-planes a third of a step apart; NaN where nothing is seen.
-double height_near(const StandingScan& heap, double azimuth_rad, double radius) {
-  double sum = 0;
-  for (const int third : {-1, 0, 1}) {
-    sum += heap.map.height_at(place_at(heap, azimuth_rad + third * kStep_rad / 3, radius));
+/// What lies along one half-plane, in steps of a cell from the axis.
+struct Ray {
+  std::vector<double> height;      ///< in cells; NaN where nothing is seen
+  std::vector<std::uint8_t> kind;  ///< 1: on the base, 2: in a hole of it, 0: beyond
+};
+
+constexpr int kRaysPerStep = 3;
+constexpr int kRays = kRaysPerStep * kAzimuths;
+constexpr int kRaysBeside = 9;  // on either side of a slice: a sector of 30 degrees
+
+std::vector<Ray> rays_of(const StandingScan& heap) {
+  const double cell = heap.map.plan.cell;
+  const auto steps = static_cast<int>(heap.map.side() / std::numbers::sqrt2);
+  std::vector<Ray> rays(kRays);
+  for (int k = 0; k < kRays; ++k) {
+    Ray& ray = rays[static_cast<std::size_t>(k)];
+    for (int step = 0; step < steps; ++step) {
+      const Eigen::Vector2d place = place_at(heap, k * kStep_rad / kRaysPerStep, step * cell);
+      const std::size_t at = heap.map.cell_of(place);
+      if (at == heap.map.height.size()) break;
+      ray.height.push_back(heap.map.height_at(place) / cell);
+      const bool is_hole = heap.map.kind[at] == CellKind::hole;
+      ray.kind.push_back(heap.base[at] == 0 ? 0 : is_hole ? 2 : 1);
+    }
   }
-  return sum / 3;
+  return rays;
 }
 
-HalfProfile half_profile(const StandingScan& heap, double azimuth_rad, const ScanOptions& options) {
-  constexpr int kNear = 3;      // cells: the axis may stand beside the body's only tip
-  constexpr int kCellsOff = 2;  // beyond the base: one is no end
-  const double cell = heap.map.plan.cell;
+/// Mean of the rays of a sector, as far as half of them are seen and on the base.
+HalfProfile half_profile(const std::vector<Ray>& rays, int middle, double crest,
+                         const ScanOptions& options) {
+  constexpr std::size_t kNear = 3;  // cells: the axis may stand beside the body's only tip
+  constexpr int kInSector = 2 * kRaysBeside + 1;
   HalfProfile profile;
-  int in_window = 0, in_holes = 0, off = 0;
-  for (int k = 0; off < kCellsOff; ++k) {
-    const double radius = k * cell;
-    const double height = height_near(heap, azimuth_rad, radius);
-    if (std::isnan(height)) {
+  int in_window = 0, in_holes = 0;
+  for (std::size_t step = 0;; ++step) {
+    double sum = 0;
+    int seen = 0, on_base = 0, holes = 0;
+    for (int k = middle - kRaysBeside; k <= middle + kRaysBeside; ++k) {
+      const Ray& ray = rays[static_cast<std::size_t>((k + kRays) % kRays)];
+      if (step >= ray.height.size() || std::isnan(ray.height[step])) continue;
+      ++seen;
+      sum += ray.height[step];
+      on_base += ray.kind[step] != 0 ? 1 : 0;
+      holes += ray.kind[step] == 2 ? 1 : 0;
+    }
+    if (2 * seen < kInSector) {
       profile.leaves_scan = true;
       break;
     }
-    const std::size_t at = heap.map.cell_of(place_at(heap, azimuth_rad, radius));
-    off = heap.base[at] != 0 || k < kNear ? 0 : off + 1;
-    profile.height.push_back(height / cell);
-    if (height < options.window_from * heap.height || height > options.window_to * heap.height) {
-      continue;
-    }
-    ++in_window;
-    in_holes += heap.map.kind[at] == CellKind::hole ? 1 : 0;
+    const double height = sum / seen;
+    profile.height.push_back(height);
+    if (2 * on_base < seen && step >= kNear) break;
+    if (height < options.window_from * crest || height > options.window_to * crest) continue;
+    in_window += seen;
+    in_holes += holes;
   }
   profile.unseen = in_window > 0 ? static_cast<double>(in_holes) / in_window : 0;
   return profile;
@@ -95,6 +123,11 @@ Slice slice_of(double azimuth_rad, const HalfProfile& profile, FlankFit fit) {
   } else if (slice.azimuth.status == FlankStatus::ok && profile.unseen > kMostUnseen) {
     slice.azimuth.status = FlankStatus::absent;
     slice.azimuth.reason = "too much of the flank is a hole in the scan";
+  }
+  const bool is_slope = slice.fit.angle_rad > 0 && slice.fit.angle_rad < kSteepestSlice_rad;
+  if (slice.azimuth.status == FlankStatus::ok && !is_slope) {
+    slice.azimuth.status = FlankStatus::absent;
+    slice.azimuth.reason = "this side falls off vertically, or rises outwards";
   }
   if (slice.azimuth.status == FlankStatus::ok) slice.azimuth.angle_rad = slice.fit.angle_rad;
   return slice;
@@ -208,13 +241,14 @@ Slices slices_of(const StandingScan& heap, const ScanOptions& options, bool has_
   flank.window_from = options.window_from;
   flank.window_to = options.window_to;
   const double crest = heap.height / heap.map.plan.cell;
+  const std::vector<Ray> rays = rays_of(heap);
   Slices slices;
   DefinitionMeans definitions;
   slices.all.resize(kAzimuths);
   for (int k = 0; k < kAzimuths / 2; ++k) {
     const double right_rad = k * kStep_rad, left_rad = right_rad + std::numbers::pi;
-    const HalfProfile right = half_profile(heap, right_rad, options);
-    const HalfProfile left = half_profile(heap, left_rad, options);
+    const HalfProfile right = half_profile(rays, k * kRaysPerStep, crest, options);
+    const HalfProfile left = half_profile(rays, (k + kAzimuths / 2) * kRaysPerStep, crest, options);
     const Profile profile = joined(left, right, crest);
     FlankFit left_fit = fit_flank(profile, Side::left, flank);
     FlankFit right_fit = fit_flank(profile, Side::right, flank);
