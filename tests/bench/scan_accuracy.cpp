@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +25,7 @@
 #include "tests/bench/grain_cone.h"
 #include "tests/bench/median.h"
 #include "tests/support/heap_random.h"
+#include "vision/measure/outline_angle.h"
 #include "vision/scan/scanned_heap.h"
 
 namespace repose::bench {
@@ -39,7 +42,8 @@ struct ScanSettings {
 struct ScannedRow {
   std::string name;
   vision::ScannedHeap heap;
-  double angle_deg = 0;  ///< the truth
+  double angle_deg = 0;       ///< the truth
+  double silhouette_deg = 0;  ///< what its silhouettes show
   double volume_ml = 0;
 };
 
@@ -78,6 +82,40 @@ DepthScanner scanner_for(std::uint64_t seed) {
   scanner.flying = random.uniform(0, .02);
   scanner.seed = seed;
   return scanner;
+}
+
+/// The angle that silhouettes of the surface show, seen from all sides: the mean over 36 of them.
+double silhouette_deg(const std::vector<base::Corner>& points) {
+  constexpr int kViews = 36, kColumns = 800;
+  double half = 0, sum = 0;
+  for (const base::Corner& point : points) half = std::max(half, std::abs(point[0]));
+  int seen = 0;
+  for (int view = 0; view < kViews; ++view) {
+    const double turn_rad = 2 * std::numbers::pi * view / kViews;
+    std::vector<double> highest(kColumns, 0.0);
+    for (const base::Corner& point : points) {
+      const double along = point[0] * std::cos(turn_rad) + point[1] * std::sin(turn_rad);
+      const auto column = static_cast<int>((along / half + 1) / 2 * kColumns);
+      if (column < 0 || column >= kColumns) continue;
+      double& height = highest[static_cast<std::size_t>(column)];
+      height = std::max(height, point[2]);
+    }
+    // The heap alone: the ground beside it, and strays beyond a gap, are none of its outline.
+    const auto crest = std::max_element(highest.begin(), highest.end());
+    const auto last = std::find(crest, highest.end(), 0.0);
+    const auto first = std::find(std::make_reverse_iterator(crest), highest.rend(), 0.0).base();
+    vision::Outline outline;
+    for (auto at = first; at != last; ++at) {
+      outline.along.push_back((static_cast<double>(at - highest.begin()) + .5) * 2 * half /
+                              kColumns);
+      outline.height.push_back(*at);
+    }
+    const auto angle_rad = vision::measure_outline(outline).angle_rad();
+    if (!angle_rad) continue;
+    sum += to_degrees(*angle_rad);
+    ++seen;
+  }
+  return seen > 0 ? sum / seen : 0;
 }
 
 struct ScanTally {
@@ -124,6 +162,14 @@ void print_rows(const std::vector<ScannedRow>& rows) {
   fmt::print("\n{} scans, {} refused, {} flagged\n", rows.size(), refused, flagged);
   angle.print("angle [°]");
   volume.print("volume [%]");
+  std::vector<double> more;
+  for (const ScannedRow& row : rows) {
+    if (row.angle_deg > 0) more.push_back(row.silhouette_deg - row.angle_deg);
+  }
+  if (more.empty()) return;
+  fmt::print("silhouettes are steeper than slices by {:.2f}° (median; {:.2f} to {:.2f}°)\n",
+             median(more), *std::min_element(more.begin(), more.end()),
+             *std::max_element(more.begin(), more.end()));
 }
 
 void measure_scans(const ScanSettings& settings) {
@@ -136,10 +182,12 @@ void measure_scans(const ScanSettings& settings) {
     const auto& [name, scene] = scenes[k];
     const ExactSurface exact = surface_from_above(scene);
     const vision::ScannedHeap truth = measured(exact.points);
+    const double seen_deg = silhouette_deg(exact.points);
     for (std::size_t scan = 0; scan < scans; ++scan) {
       ScannedRow& row = rows[k * scans + scan];
       row.name = fmt::format("{} scan {}", name, scan);
       row.angle_deg = to_degrees(truth.angle.angle_rad.value_or(0));
+      row.silhouette_deg = seen_deg;
       row.volume_ml = exact.volume_ml;
       row.heap = measured(scanned(scene, scanner_for(settings.seed + 1000 * k + scan)));
     }

@@ -6,6 +6,7 @@
 
 #include "tests/cli/run_program.h"
 #include "tests/support/drawn_scan.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/picture/picture.h"
 
@@ -90,6 +91,19 @@ TEST_F(MeasureScan, DamagedFilesAreNamedWithARemedy) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.out, IsEmpty());
   EXPECT_THAT(result.err, AllOf(HasSubstr("cut.ply"), HasSubstr("too soon"), HasSubstr("Fix: ")));
+}
+
+/// Simulated heaps are read in silhouettes, which show another angle.
+TEST_F(MeasureScan, AStudyTakesNoScans) {
+  const std::string study = text_of(source_folder() / "samples/hazelnut/study.toml");
+  const std::string known = "measured = { mean = 23.38, sd = 0.72, n = 10 }";
+  const std::size_t at = study.find(known);
+  ASSERT_NE(at, std::string::npos);
+  folder_.write("study.toml", study.substr(0, at) + "measured = { pictures = [\"heap.ply\"] }" +
+                                  study.substr(at + known.size()));
+  const Finished result = run_repose(folder_, {"calibrate", "study.toml", "--dry-run"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("heap.ply"), HasSubstr("three-dimensional scan")));
 }
 
 }  // namespace

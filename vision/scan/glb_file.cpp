@@ -21,6 +21,7 @@ using nlohmann::json;
 
 constexpr std::string_view kGlbMagic = "glTF";
 constexpr int kDeepest = 64;  // nodes within each other; a file could name itself for ever
+constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostCorners = 40'000'000;
 
 // Of the specification, sec. 3.6.2.2 and 3.7.2.1.
@@ -130,7 +131,9 @@ class GlbReader {
   }
 
   void add_node(std::size_t number, const Eigen::Affine3d& parent, int depth) {
-    if (depth > kDeepest) refuse_glb("its nodes are within each other without end");
+    if (depth > kDeepest || ++nodes_ > kMostNodes) {
+      refuse_glb("its nodes are within each other without end");
+    }
     const json& node = tree_.at("nodes").at(number);
     const Eigen::Affine3d placing = parent * placing_of(node);
     if (node.contains("mesh")) {
@@ -207,6 +210,7 @@ class GlbReader {
   json tree_;
   std::string_view binary_;
   TriangleSoup soup_;
+  std::size_t nodes_ = 0;
 };
 
 }  // namespace

@@ -80,9 +80,9 @@ inline constexpr int kAzimuths = 72;
 /// heap's side is that on which a body stands that the ground encloses. Heights above the ground
 /// are the medians of the points in each cell of a plan of up to 240 cells across the heap. The
 /// axis goes through the centre of volume between 20 and 80 % of the height, which neither toe nor
-/// crest moves. Along 72 half-planes through it, each the mean of three within 5 degrees, the flank
-/// is fitted as the side of a silhouette is (fit_flank()), with the window's heights those of the
-/// heap's crest. The angle is their mean.
+/// crest moves. Along 72 half-planes through it, each the mean of a sector of 30 degrees so that
+/// single grains do not make its line, the flank is fitted as the side of a silhouette is
+/// (fit_flank()), with the window's heights those of the heap's crest. The angle is their mean.
 ///
 /// The interval is of this heap's angle by this definition. It covers, in quadrature, half-widths
 /// of 95 %:
@@ -90,6 +90,9 @@ inline constexpr int kAzimuths = 72;
 /// - the ground's level: by how much the levels of the sectors around the heap scatter, and what
 ///   moving all heights by that changes; the same scatter as a tilt of single flanks, since stands
 ///   that are registered wrongly tilt both;
+/// - the surface between the grains, of which stands see more or less: a sixth of its relief,
+/// over
+///   the window's length;
 /// - azimuths that were not seen: the scatter between octants, as a sample of a finite population
 ///   (Cochran, Sampling Techniques (1977), sec. 2.6);
 /// - a floor of 0.06 degrees, as of pictures;
@@ -101,7 +104,8 @@ inline constexpr int kAzimuths = 72;
 ///     V = sum over the base of h A        h  height above the ground, A  a cell's area
 ///
 /// from the middle of cells (midpoint rule); the base reaches as far as the flank needs to come
-/// down from the threshold to the ground. Its interval covers the ground's level and the holes.
+/// down from the threshold to the ground. Its interval covers the ground's level, the surface
+/// between the grains and the holes.
 /// Proved by ScannedHeap.* in tests/vision/scanned_heap_test.cpp: cones of known angle and volume.
 /// @throws base::InputError  a window that MeasureOptions refuses, a unit that is not above 0, or
 ///   three points on one line.
