@@ -24,7 +24,7 @@ bool is_wanted(std::size_t number, Points which) {
   return is_odd == (which == Points::odd);
 }
 
-constexpr int kParts = 3;  // of a cell along each of its sides
+constexpr std::size_t kParts = 3;  // of a cell along each of its sides
 
 /// A point in its cell.
 struct PlacedPoint {
@@ -73,7 +73,8 @@ float height_of(std::span<PlacedPoint> points, std::vector<float>& scratch) {
 std::uint8_t part_of_cell(const MapPlan& plan, const Eigen::Vector2d& place) {
   const Eigen::Vector2d at = (place - plan.corner) / plan.cell;
   const auto part = [](double along) {
-    return std::min(kParts - 1, static_cast<int>((along - std::floor(along)) * kParts));
+    const double parts = static_cast<double>(kParts) * (along - std::floor(along));
+    return std::min(kParts - 1, static_cast<std::size_t>(parts));
   };
   return static_cast<std::uint8_t>(part(at.y()) * kParts + part(at.x()));
 }

@@ -256,9 +256,9 @@ Slices slices_of(const StandingScan& heap, const ScanOptions& options, bool has_
       const FittedEdge edge{.profile = profile, .left = left_fit, .right = right_fit, .grain = {}};
       definitions.add(other_definitions(edge));
     }
-    slices.all[static_cast<std::size_t>(k)] = slice_of(right_rad, right, std::move(right_fit));
-    slices.all[static_cast<std::size_t>(k + kAzimuths / 2)] =
-        slice_of(left_rad, left, std::move(left_fit));
+    const auto place = static_cast<std::size_t>(k);
+    slices.all[place] = slice_of(right_rad, right, std::move(right_fit));
+    slices.all[place + kAzimuths / 2] = slice_of(left_rad, left, std::move(left_fit));
   }
   slices.definitions = definitions.means();
   return slices;
