@@ -286,8 +286,7 @@ std::vector<MeasuredPicture> measure_one_scan(const MeasurePlan& plan, std::size
     one.sizes.height_mm = one.scan->height_mm;
     one.sizes.base_mm = one.scan->base_mm;
     if (plan.overlays.empty() && !plan.keeps_overlays) return;
-    const vision::Picture overlay =
-        vision::draw_scan_overlay(*one.scan, file.filename().string());
+    const vision::Picture overlay = vision::draw_scan_overlay(*one.scan, file.filename().string());
     if (plan.keeps_overlays) {
       one.overlay = calibrate::report::page_overlay(overlay, plan.pictures.size());
     }

@@ -146,7 +146,7 @@ std::string obj_of(const base::PolygonSurface& surface) {
 
 /// Files of polygons are read here: assimp does not survive all that a damaged one may hold.
 base::PolygonSurface polygons_in(const std::filesystem::path& file, std::string_view bytes,
-                           const std::string& ending) {
+                                 const std::string& ending) {
   try {
     return ending == ".ply" ? base::parse_ply(bytes) : base::parse_obj(bytes);
   } catch (const base::InputError& error) {
