@@ -8,12 +8,15 @@
 #include "vision/compare/heap_comparison.h"
 #include "vision/compare/heap_sets.h"
 #include "vision/drawing/overlay.h"
+#include "vision/drawing/scan_overlay.h"
 #include "vision/files/file_list.h"
 #include "vision/files/heap_file.h"
 #include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
+#include "vision/scan/scan_file.h"
+#include "vision/scan/scanned_heap.h"
 #include "vision/track/film_track.h"
 
 /// Angles of repose in photographs and films, and what films of drops, rolls and tilts show. Link
@@ -39,11 +42,15 @@ namespace repose {
 
 using base::InputError;
 
-// A heap in a file: a photograph or a film, with the hints that are kept beside it.
+// A heap in a file: a photograph or a film, with the hints that are kept beside it, or a scan.
 using vision::HeapInFile;
 using vision::measure_heap_file;
+using vision::measure_scan;
 using vision::PictureSettings;
+using vision::read_scan;
 using vision::save_hints;
+using vision::ScannedHeap;
+using vision::ScanOptions;
 
 // A heap in a picture: its angle alone, or with a lens, and a scale or a printed board.
 using vision::Estimate;
@@ -74,6 +81,7 @@ using vision::compare_sets;
 
 // Pictures.
 using vision::draw_overlay;
+using vision::draw_scan_overlay;
 using vision::list_pictures;
 using vision::OverlayNotes;
 using vision::Picture;

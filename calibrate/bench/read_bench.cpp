@@ -19,6 +19,7 @@
 #include "vision/files/file_list.h"
 #include "vision/files/heap_file.h"
 #include "vision/measure/repose_angle.h"
+#include "vision/scan/scan_file.h"
 #include "vision/track/film_track.h"
 
 namespace repose::calibrate {
@@ -66,6 +67,15 @@ struct MeasuredFile {
 };
 
 MeasuredFile measured_file(const fs::path& file, const std::string& definition) {
+  if (vision::has_scan_ending(file)) {
+    throw base::InputError(
+        {.where = file.string(),
+         .value =
+             "is a three-dimensional scan, whose angle is a mean of slices; simulated heaps are "
+             "read in silhouettes, as pictures are, which show another one",
+         .fix = "use photographs of the heaps; or measure the scans with repose measure and give "
+                "their angles as values, knowing of that difference."});
+  }
   vision::PictureSettings told;
   told.measuring.definition = definition;
   const vision::HeapInFile seen = vision::measure_heap_file(file, told);

@@ -197,7 +197,11 @@ PictureRow overlays_row(const std::vector<MeasuredPhotograph>& pictures) {
 
 PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAngle& angle,
                           const vision::OverlayNotes& notes, std::size_t pictures) {
-  return page_jpeg(vision::draw_overlay(picture, angle, notes), longest_side_px(pictures));
+  return page_overlay(vision::draw_overlay(picture, angle, notes), pictures);
+}
+
+PageJpeg page_overlay(const vision::Picture& overlay, std::size_t pictures) {
+  return page_jpeg(overlay, longest_side_px(pictures));
 }
 
 Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {

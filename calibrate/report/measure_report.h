@@ -22,6 +22,9 @@ struct PageJpeg {
 PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAngle& angle,
                           const vision::OverlayNotes& notes, std::size_t pictures);
 
+/// An overlay that is drawn already, as of a scan, likewise.
+PageJpeg page_overlay(const vision::Picture& overlay, std::size_t pictures);
+
 /// A picture of a batch.
 struct MeasuredPhotograph {
   std::string file;

@@ -27,11 +27,14 @@
 #include "cli/measure/measure_table.h"
 #include "cli/measure/summary.h"
 #include "vision/drawing/overlay.h"
+#include "vision/drawing/scan_overlay.h"
 #include "vision/files/file_list.h"
 #include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
 #include "vision/picture/made_here.h"
 #include "vision/picture/picture.h"
+#include "vision/scan/scan_file.h"
+#include "vision/scan/scanned_heap.h"
 
 namespace repose::cli {
 
@@ -270,7 +273,35 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
   return measured;
 }
 
-/// Measures the plan's picture or film of this place, and draws its overlays.
+std::vector<MeasuredPicture> measure_one_scan(const MeasurePlan& plan, std::size_t index) {
+  const fs::path& file = plan.pictures[index];
+  std::vector<MeasuredPicture> measured(1);
+  measured.front().file = file.string();
+  attempt(measured.front(), [&] {
+    MeasuredPicture& one = measured.front();
+    one.scan = vision::measure_scan(vision::read_scan(file), plan.scan);
+    one.angle = one.scan->angle;
+    one.has_scale = one.scan->height_mm.has_value();
+    one.sizes.reason = one.scan->size_reason;
+    one.sizes.height_mm = one.scan->height_mm;
+    one.sizes.base_mm = one.scan->base_mm;
+    if (plan.overlays.empty() && !plan.keeps_overlays) return;
+    const vision::Picture overlay = vision::draw_scan_overlay(*one.scan, file.filename().string());
+    if (plan.keeps_overlays) {
+      one.overlay = calibrate::report::page_overlay(overlay, plan.pictures.size());
+    }
+    if (plan.overlays.empty()) return;
+    try {
+      vision::write_picture(plan.overlays[index], overlay);
+    } catch (const base::InputError& error) {
+      one.overlay_error = error.what();
+    }
+  });
+  if (measured.front().scan) measured.front().scan->map = {};
+  return measured;
+}
+
+/// Measures the plan's picture, film or scan of this place, and draws its overlays.
 /// @param progress  told which fraction is done; what it throws, other than what says that a file
 ///   is wrong, ends the work
 /// @returns one, and behind it a film's frames where the plan wants them
@@ -279,8 +310,10 @@ std::vector<MeasuredPicture> measure_file(const MeasurePlan& plan, std::size_t i
   const fs::path& file = plan.pictures[index];
   std::error_code ignored;
   const bool is_film = vision::has_film_ending(file) || fs::is_directory(file, ignored);
-  std::vector<MeasuredPicture> measured =
-      is_film ? measure_one_film(plan, index, progress) : measure_one_picture(plan, index);
+  const bool is_scan = !is_film && vision::has_scan_ending(file);
+  std::vector<MeasuredPicture> measured = is_film   ? measure_one_film(plan, index, progress)
+                                          : is_scan ? measure_one_scan(plan, index)
+                                                    : measure_one_picture(plan, index);
   progress(1);
   return measured;
 }

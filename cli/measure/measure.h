@@ -12,6 +12,7 @@
 #include "vision/hints/hint_file.h"
 #include "vision/hints/proposal.h"
 #include "vision/measure/repose_angle.h"
+#include "vision/scan/scanned_heap.h"
 
 namespace repose::cli {
 
@@ -39,6 +40,7 @@ struct MeasuredPicture {
   std::optional<vision::SeenBoard> board;  ///< in its picture
   bool has_scale = false;                  ///< a board that was seen, or a given scale
   vision::HeapSizes sizes;
+  std::optional<vision::ScannedHeap> scan;   ///< without its map; none: no scan
   std::optional<vision::Proposal> proposal;  ///< what would help, when it is refused
   std::string pixels;         ///< a fingerprint of the picture's; empty: not read, or a film
   std::string heap;           ///< pictures of one name are of one heap; empty: of its own

@@ -1,5 +1,6 @@
 #include "cli/measure/measure_json.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "base/csv.h"
 #include "cli/common/json_text.h"
 #include "vision/measure/repose_angle.h"
+#include "vision/scan/scanned_heap.h"
 
 namespace repose::cli {
 
@@ -26,7 +28,7 @@ constexpr const char* kHeader =
     "camera,scale,mm_per_px,mm_per_px_uncertainty,height_mm,height_mm_uncertainty,"
     "base_mm,base_mm_uncertainty,cone_volume_ml,cone_volume_ml_uncertainty,"
     "left_run_out_mm,left_run_out_mm_uncertainty,right_run_out_mm,right_run_out_mm_uncertainty,"
-    "size_reason\n";
+    "size_reason,volume_ml,volume_ml_uncertainty,azimuths,azimuth_sd_deg\n";
 
 /// One row, field by field.
 class Row {
@@ -89,7 +91,46 @@ void add_sizes(Row& row, const MeasuredPicture& picture) {
   row.add_text(sizes.reason);
 }
 
+int azimuths_with_angle(const vision::ScannedHeap& scan) {
+  return static_cast<int>(
+      std::count_if(scan.azimuths.begin(), scan.azimuths.end(),
+                    [](const vision::Azimuth& azimuth) { return azimuth.angle_rad.has_value(); }));
+}
+
+/// Empty of pictures.
+void add_scan(Row& row, const std::optional<vision::ScannedHeap>& scan) {
+  const auto volume = scan ? scan->volume_ml : std::nullopt;
+  row.add_number(volume ? std::optional(volume->value) : std::nullopt);
+  row.add_number(volume ? std::optional(volume->uncertainty) : std::nullopt);
+  row.add_text(scan ? fmt::format("{}", azimuths_with_angle(*scan)) : "");
+  row.add_degrees(scan ? scan->azimuth_sd_rad : std::nullopt);
+}
+
+/// Of a scan what a picture has besides stays empty.
+std::string scan_line(const MeasuredPicture& picture) {
+  constexpr int kOfSides = 11;    // from left_status to ground_tilt_deg
+  constexpr int kOfPictures = 7;  // from segmentation to hints
+  const vision::ReposeAngle& angle = picture.angle;
+  Row row;
+  row.add_text(picture.file);
+  row.add_text(name_of(angle.status));
+  row.add_degrees(angle.angle_rad);
+  row.add_degrees(angle.uncertainty_rad);
+  for (int field = 0; field < kOfSides; ++field) row.add_text("");
+  row.add_number(angle.window[0]);
+  row.add_number(angle.window[1]);
+  row.add_text(name_of(angle.method));
+  for (int field = 0; field < kOfPictures; ++field) row.add_text("");
+  row.add_text(warning_codes(angle.warnings));
+  row.add_text(angle.reason);
+  add_film(row, picture.filmed);
+  add_sizes(row, picture);
+  add_scan(row, picture.scan);
+  return row.line();
+}
+
 std::string measured_line(const MeasuredPicture& picture) {
+  if (picture.scan) return scan_line(picture);
   const vision::ReposeAngle& angle = picture.angle;
   Row row;
   row.add_text(picture.file);
@@ -113,6 +154,7 @@ std::string measured_line(const MeasuredPicture& picture) {
   row.add_text(angle.reason);
   add_film(row, picture.filmed);
   add_sizes(row, picture);
+  add_scan(row, picture.scan);
   return row.line();
 }
 
@@ -126,6 +168,7 @@ std::string unread_line(const MeasuredPicture& picture) {
   row.add_text(picture.error);
   add_film(row, picture.filmed);
   add_sizes(row, picture);
+  add_scan(row, picture.scan);
   return row.line();
 }
 
@@ -287,6 +330,44 @@ void add_film(const std::optional<FilmedPicture>& filmed, Json& json) {
   json["time_s"] = filmed ? or_null(filmed->time_s) : Json();
 }
 
+Json azimuths_json(const std::vector<vision::Azimuth>& azimuths) {
+  Json json = Json::array();
+  for (const vision::Azimuth& azimuth : azimuths) {
+    Json one{{"azimuth_deg", rounded_degrees(azimuth.azimuth_rad)},
+             {"status", name_of(azimuth.status)},
+             {"angle_deg", degrees(azimuth.angle_rad)}};
+    if (azimuth.status != vision::FlankStatus::ok) one["reason"] = azimuth.reason;
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+Json ground_json(const std::optional<vision::ScanGround>& ground) {
+  if (!ground) return nullptr;
+  return {{"normal", ground->normal},
+          {"offset", ground->offset},
+          {"noise", ground->noise},
+          {"level_sd", ground->level_sd},
+          {"sectors", ground->sectors}};
+}
+
+/// What is known of a scan alone; null of a picture, and what a picture has besides is null of it.
+void add_scan(const std::optional<vision::ScannedHeap>& scan, Json& json) {
+  add_estimate(json, "volume_ml", scan ? scan->volume_ml : std::nullopt);
+  json["scan"] = nullptr;
+  if (!scan) return;
+  for (const char* unknown : {"left", "right", "confidence", "segmentation", "strays"}) {
+    json[unknown] = nullptr;
+  }
+  json["scan"] = {{"points", scan->points},
+                  {"points_left_out", scan->points_left_out},
+                  {"ground", ground_json(scan->ground)},
+                  {"axis", scan->axis ? Json(*scan->axis) : Json()},
+                  {"hole_share", scan->hole_share},
+                  {"azimuths", azimuths_json(scan->azimuths)},
+                  {"azimuth_sd_deg", degrees(scan->azimuth_sd_rad)}};
+}
+
 Json picture_json(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Json json{{"file", picture.file},
@@ -316,6 +397,7 @@ Json picture_json(const MeasuredPicture& picture) {
             {"definitions", definitions_json(angle.definitions)}};
   add_sizes(picture, json);
   add_film(picture.filmed, json);
+  add_scan(picture.scan, json);
   if (picture.outcome != Outcome::measured) {
     json["reason"] = picture.error;
     for (const char* unknown :

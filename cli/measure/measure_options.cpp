@@ -1,7 +1,12 @@
 #include "cli/measure/measure_options.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +19,7 @@
 #include "vision/files/file_list.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/picture.h"
+#include "vision/scan/scan_file.h"
 
 namespace repose::cli {
 
@@ -87,6 +93,70 @@ void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
                   arguments.every));
 }
 
+std::optional<double> read_unit_mm(const OptionText& typed) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> kUnits{
+      {{"um", 1e-3}, {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
+  if (typed.text.empty()) return std::nullopt;
+  for (const auto& [name, mm] : kUnits) {
+    if (typed.text == name) return mm;
+  }
+  typed.refuse("um, mm, cm, m or in: what one unit of the scan's file is",
+               "--unit m, as most telephones write.");
+  return std::nullopt;
+}
+
+/// What is said of scans; none of it means anything for pictures, nor the other way round.
+void read_scan_options(const MeasureArguments& arguments, MeasurePlan& plan) {
+  vision::ScanOptions& scan = plan.scan;
+  scan.window_from = plan.options.window_from;
+  scan.window_to = plan.options.window_to;
+  scan.names = kMeasureFields;
+  scan.unit_mm = read_unit_mm({"--unit", arguments.unit, plan.errors});
+  if (!arguments.ground_plane.empty()) {
+    if (const auto given = numbers_in<double, 9>(arguments.ground_plane)) {
+      const auto& n = *given;
+      scan.ground = {{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}}};
+    } else {
+      OptionText{"--ground-plane", arguments.ground_plane, plan.errors}.refuse(
+          "nine numbers: three points X,Y,Z,X,Y,Z,X,Y,Z of the ground, in the scan's unit",
+          "read them off the scan in a viewer, such as MeshLab.");
+    }
+  }
+  const auto scans = static_cast<std::size_t>(
+      std::count_if(plan.pictures.begin(), plan.pictures.end(), vision::has_scan_ending));
+  const auto refuse_without = [&](const char* option, const std::string& text, bool is_usable,
+                                  const char* what) {
+    if (text.empty() || is_usable) return;
+    plan.errors.push_back(
+        fmt::format("{} {}: there are no {}. Rule: it says something of {} only. "
+                    "Fix: leave it out.",
+                    option, text, what, what));
+  };
+  const bool has_scans = scans > 0, has_pictures = scans < plan.pictures.size();
+  if (plan.pictures.empty()) return;
+  refuse_without("--unit", arguments.unit, has_scans, "scans");
+  refuse_without("--ground-plane", arguments.ground_plane, has_scans, "scans");
+  for (const auto& [option, text] : {std::pair("--heap", &arguments.heap),
+                                     {"--half", &arguments.half},
+                                     {"--ground", &arguments.ground},
+                                     {"--mask", &arguments.mask_file},
+                                     {"--pitch-deg", &arguments.pitch_deg},
+                                     {"--scale", &arguments.scale.scale},
+                                     {"--camera-file", &arguments.scale.camera_file}}) {
+    refuse_without(option, *text, has_pictures, "pictures");
+  }
+  if (has_scans && plan.options.method == vision::Method::paper) {
+    plan.errors.emplace_back(
+        "--method paper: it is of pictures, and there are scans. Fix: measure the scans apart.");
+  }
+  if (has_scans && !base::is_usual_definition(plan.options.definition)) {
+    plan.errors.push_back(
+        fmt::format("--definition {}: it is of pictures, and there are scans. Fix: measure the "
+                    "scans apart; --definitions lists their angles by the others, too.",
+                    arguments.definition));
+  }
+}
+
 }  // namespace
 
 MeasurePlan plan_measure(const MeasureArguments& arguments) {
@@ -111,9 +181,10 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
 
   plan.frames_per_s = read_frame_rate(arguments.fps, arguments.pictures, plan.errors);
   plan.pictures = files_in(plan.frames_per_s ? vision::list_with_frame_folders(arguments.pictures)
-                                             : vision::list_pictures_and_films(arguments.pictures),
+                                             : vision::list_heap_files(arguments.pictures),
                            plan.errors, plan.notes);
   read_step(arguments, plan);
+  read_scan_options(arguments, plan);
   const std::vector<OutputPlace> places = {
       json_place(arguments.json_file, "\"ground_tilt_deg\""),
       csv_place("--csv", arguments.csv_file, "ground_tilt_deg"),
@@ -133,9 +204,16 @@ namespace {
 
 constexpr const char* kMeasureNotes = R"(
 PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; or a
-film of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A
-folder stands for all pictures and films in it, except films that share a
-photo's name, as phones save both at once. FILE may be - for standard output.
+film of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF; or
+a three-dimensional scan: PLY, OBJ, STL or GLB. A folder stands for all
+pictures, films and scans in it, except films that share a photo's name, as phones save both at once, and pictures that share a scan's,
+which are its texture. FILE may be - for standard output.
+
+Scans: PLY, OBJ, STL and GLB of a heap with the ground around it, as surface or
+as cloud of points, however it is turned. The ground is found, or --ground-plane
+names three points of it. The angle is the mean over 72 azimuths of the flank's
+angle, by the same fit as in pictures. --unit, what one unit of the file is,
+gives height, base and the heap's own volume.
 
 Films: the heap at rest is measured in the mean of the frames of the last second
 in which nothing moves. A heap that still moves when the film ends is refused:
@@ -197,9 +275,9 @@ Command measure_command() {
   const auto given = std::make_shared<MeasureArguments>();
   return {
       .name = "measure",
-      .summary = "Measure heaps in pictures and films",
+      .summary = "Measure heaps in pictures, films and scans",
       .options =
-          {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
+          {{"pictures", "PICTURE|FOLDER ...", "Pictures, films or scans, or folders",
             &given->pictures, true},
            {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
            {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
@@ -221,6 +299,9 @@ Command measure_command() {
            {"--board-behind", "MM", "How far behind the heap's middle it is (0)",
             &given->scale.board_behind_mm},
            {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale.scale},
+           {"--unit", "UNIT", "Unit of scans: um, mm, cm, m or in", &given->unit},
+           {"--ground-plane", "X,Y,Z,X,Y,Z,X,Y,Z", "Three points of a scan's ground",
+            &given->ground_plane},
            {"--overlay", "FOLDER", "Folder for pictures with the measurement",
             &given->overlay_folder},
            {"--json", "FILE|-", "Full results, for programs", &given->json_file},

@@ -11,18 +11,21 @@
 #include "cli/common/picture_options.h"
 #include "vision/camera/sized_heap.h"
 #include "vision/measure/repose_angle.h"
+#include "vision/scan/scanned_heap.h"
 
 namespace repose::cli {
 
 /// Its options by the fields that a measurement finds fault with, or advises to give.
-inline constexpr std::array<base::FieldName, 7> kMeasureFields{
+inline constexpr std::array<base::FieldName, 9> kMeasureFields{
     {{"excluded box", "--exclude X,Y,W,H"},
      {"camera pitch", "--pitch-deg"},
      {"heap box", "--heap"},
      {"ground points", "--ground"},
      {"point to keep", "--keep"},
      {"point to drop", "--drop"},
-     {"camera file", "--camera-file"}}};
+     {"camera file", "--camera-file"},
+     {"unit", "--unit mm"},
+     {"ground plane", "--ground-plane"}}};
 
 /// What `repose measure` is asked to do, as typed.
 struct MeasureArguments {
@@ -39,6 +42,8 @@ struct MeasureArguments {
   std::string mask_file;
   std::string pitch_deg;
   ScaleArguments scale;
+  std::string unit;
+  std::string ground_plane;
   std::string every;
   std::string fps;
   std::string threads;
@@ -60,6 +65,7 @@ struct MeasurePlan {
   vision::MeasureOptions options;
   std::optional<double> frames_per_s;  ///< of folders, each a film's frames
   vision::ScaleOptions scale;
+  vision::ScanOptions scan;
   std::optional<double> every_s;  ///< also frames of each film, so far apart
   bool saves_hints = false;
   int threads = 1;

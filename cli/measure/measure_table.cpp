@@ -17,6 +17,7 @@
 #include "cli/common/table.h"
 #include "cli/measure/measure.h"
 #include "vision/measure/repose_angle.h"
+#include "vision/scan/scanned_heap.h"
 
 namespace repose::cli {
 
@@ -235,6 +236,35 @@ void add_sizes(Table& table, const MeasuredPicture& picture) {
   }
 }
 
+/// Of a scan, whose heap has azimuths and no sides.
+void add_scan(Table& table, const MeasuredPicture& picture, const vision::ScannedHeap& scan,
+              const TableStyle& style) {
+  const vision::ReposeAngle& angle = scan.angle;
+  table.add_row({picture.file, degrees_cell(angle.angle_rad, angle.uncertainty_rad), kMissing,
+                 kMissing, kMissing, kMissing, name_of(angle.status)},
+                row_colour(picture, style.has_colour));
+  if (angle.status == vision::MeasureStatus::refused) {
+    table.add_note(fmt::format("{}refused: ", kNoteIndent), angle.reason);
+    return;
+  }
+  const auto seen = std::count_if(scan.azimuths.begin(), scan.azimuths.end(),
+                                  [](const auto& one) { return one.angle_rad.has_value(); });
+  table.add_note(kNoteIndent, fmt::format("scan: mean of {} azimuths, which scatter by sd {:.2f}°",
+                                          seen, to_degrees(scan.azimuth_sd_rad.value_or(0))));
+  std::string sizes;
+  if (scan.height_mm) sizes += fmt::format("height {} mm", size_text(*scan.height_mm));
+  if (scan.base_mm) sizes += fmt::format(", base {} mm", size_text(*scan.base_mm));
+  if (scan.volume_ml) sizes += fmt::format(", volume {} ml", size_text(*scan.volume_ml));
+  if (!sizes.empty()) table.add_note(kNoteIndent, sizes);
+  if (!scan.size_reason.empty()) {
+    table.add_note(fmt::format("{}no sizes: ", kNoteIndent), scan.size_reason);
+  }
+  for (const vision::Warning& warning : angle.warnings) {
+    table.add_note(fmt::format("{}! ", kNoteIndent), warning.message);
+  }
+  if (style.shows_definitions) add_definitions(table, angle);
+}
+
 void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
   if (is_of_series(picture)) return add_frame(table, picture, style);
   const vision::ReposeAngle& angle = picture.angle;
@@ -244,6 +274,7 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
                   colour);
     return;
   }
+  if (picture.scan) return add_scan(table, picture, *picture.scan, style);
   table.add_row(
       {picture.file, degrees_cell(angle.angle_rad, angle.uncertainty_rad),
        flank_cell(angle.left, angle.status), flank_cell(angle.right, angle.status),

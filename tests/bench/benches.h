@@ -12,6 +12,7 @@ void add_film_accuracy(CLI::App& bench);
 void add_heap_agreement(CLI::App& bench);
 void add_photo_accuracy(CLI::App& bench);
 void add_recovery(CLI::App& bench);
+void add_scan_accuracy(CLI::App& bench);
 void add_soak(CLI::App& bench);
 void add_track_accuracy(CLI::App& bench);
 

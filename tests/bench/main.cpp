@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   add_board_accuracy(bench);
   add_track_accuracy(bench);
   add_recovery(bench);
+  add_scan_accuracy(bench);
   add_soak(bench);
   add_speed(bench);
   add_against_liggghts(bench);

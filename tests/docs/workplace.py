@@ -72,6 +72,20 @@ def stl_of(triangles):
     return "\n".join([*lines, "endsolid nut", ""])
 
 
+def cone_ply(angle_deg=27, height=80, half_side=260, points=90_000):
+    """A cone on the ground, as a cloud of points in millimetres: places of a sequence that fills a square evenly."""
+    golden = 1.32471795724474602596
+    slope = math.tan(math.radians(angle_deg))
+    body = bytearray()
+    for k in range(points):
+        x = (2 * ((k / golden) % 1) - 1) * half_side
+        y = (2 * ((k / golden ** 2) % 1) - 1) * half_side
+        body += struct.pack("<3f", x, y, max(0, height - slope * math.hypot(x, y)))
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {points}",
+              "property float x", "property float y", "property float z", "end_header", ""]
+    return "\n".join(header).encode() + body
+
+
 def silhouette_png(width=960, height=640, slope=0.45):
     """A black heap with straight flanks on white, as repose render draws them."""
     foot = height - 120
@@ -249,6 +263,7 @@ def prepare(folder, root, repose):
         (folder / name).write_text(study, encoding="utf-8")
     (folder / "nut.stl").write_text(stl_of(ellipsoid((11.2, 9.1, 8.7))), encoding="utf-8")
     (folder / "render.png").write_bytes(silhouette_png())
+    (folder / "heap.ply").write_bytes(cone_ply())
     (folder / "heap.avi").write_bytes(grown_heap_avi())
     (folder / "drop_01.avi").write_bytes(dropped_grain_avi(0.6))
     (folder / "drop_02.avi").write_bytes(dropped_grain_avi(0.5))

@@ -17,6 +17,7 @@
 #include "base/file_set.h"
 #include "base/fingerprint.h"
 #include "vision/film/film_angle.h"
+#include "vision/scan/scan_file.h"
 
 namespace repose::vision {
 
@@ -92,11 +93,12 @@ namespace fs = std::filesystem;
 
 /// Pictures, or films, or both.
 struct FileKind {
-  std::string_view name;                        ///< "pictures"
-  std::string_view done;                        ///< to one: "measured"
-  std::string_view usual;                       ///< ".jpg, .heic, .png, .tif, .bmp or .webp"
-  std::span<const std::string_view> endings;    ///< all, small
-  std::span<const std::string_view> more = {};  ///< likewise
+  std::string_view name;                         ///< "pictures"
+  std::string_view done;                         ///< to one: "measured"
+  std::string_view usual;                        ///< ".jpg, .heic, .png, .tif, .bmp or .webp"
+  std::span<const std::string_view> endings;     ///< all, small
+  std::span<const std::string_view> more = {};   ///< likewise
+  std::span<const std::string_view> scans = {};  ///< likewise
 };
 
 constexpr std::array<std::string_view, 10> kPictureEndings{
@@ -116,6 +118,14 @@ constexpr FileKind kBoth{.name = "pictures or films",
                          .endings = kPictureEndings,
                          .more = kFilmEndings};
 
+constexpr FileKind kHeaps{
+    .name = "pictures, films or scans",
+    .done = "measured",
+    .usual = ".jpg, .heic, .png, .tif, .bmp, .webp, .mp4, .mov, .avi, .ply or .obj",
+    .endings = kPictureEndings,
+    .more = kFilmEndings,
+    .scans = kScanEndings};
+
 bool has_ending(const fs::path& file, const FileKind& kind) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -123,7 +133,7 @@ bool has_ending(const fs::path& file, const FileKind& kind) {
   const auto has = [&](const auto& endings) {
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
   };
-  return has(kind.endings) || has(kind.more);
+  return has(kind.endings) || has(kind.more) || has(kind.scans);
 }
 
 /// Adds the files of a folder whose names are as wanted, sorted.
@@ -168,6 +178,24 @@ void drop_films_of_pictures(std::size_t first, FileList& list) {
   list.files.erase(std::remove_if(begin, list.files.end(), is_taken_along), list.files.end());
 }
 
+/// Of what a folder has given, from `first` on.
+void drop_pictures_of_scans(std::size_t first, FileList& list) {
+  const auto begin = list.files.begin() + static_cast<std::ptrdiff_t>(first);
+  std::set<fs::path> scans;
+  for (auto file = begin; file != list.files.end(); ++file) {
+    if (has_scan_ending(*file)) scans.insert(file->stem());
+  }
+  const auto belongs_to_scan = [&](const fs::path& file) {
+    if (has_scan_ending(file) || !scans.contains(file.stem())) return false;
+    list.notes.push_back(
+        fmt::format("{}: left out, since a scan has its name: its texture, or the same heap; name "
+                    "it to have it measured too",
+                    file.string()));
+    return true;
+  };
+  list.files.erase(std::remove_if(begin, list.files.end(), belongs_to_scan), list.files.end());
+}
+
 void add_folder(const fs::path& folder, const FileKind& kind, FileList& list) {
   const std::size_t first = list.files.size();
   const auto is_wanted = [&](const fs::path& file) {
@@ -179,6 +207,7 @@ void add_folder(const fs::path& folder, const FileKind& kind, FileList& list) {
              .fix = fmt::format("name a folder with {} files in it.", kind.usual)},
             list);
   if (!kind.more.empty()) drop_films_of_pictures(first, list);
+  if (!kind.scans.empty()) drop_pictures_of_scans(first, list);
 }
 
 void add_matching(const fs::path& pattern, FileList& list) {
@@ -242,6 +271,10 @@ FileList list_pictures_and_films(const std::vector<std::string>& names) {
   return list_files(names, kBoth);
 }
 
+FileList list_heap_files(const std::vector<std::string>& names) {
+  return list_files(names, kHeaps);
+}
+
 FileList list_with_frame_folders(const std::vector<std::string>& names) {
   FileList list;
   for (const std::string& name : names) {
@@ -250,7 +283,7 @@ FileList list_with_frame_folders(const std::vector<std::string>& names) {
       list.files.push_back(without_slash(name));
       continue;
     }
-    FileList one = list_files({name}, kBoth);
+    FileList one = list_files({name}, kHeaps);
     std::move(one.files.begin(), one.files.end(), std::back_inserter(list.files));
     std::move(one.faults.begin(), one.faults.end(), std::back_inserter(list.faults));
   }

@@ -58,6 +58,10 @@ FileList list_films(const std::vector<std::string>& names);
 /// picture of that name: they would count the same heap twice.
 FileList list_pictures_and_films(const std::vector<std::string>& names);
 
+/// The same with three-dimensional scans, too. Of a folder's pictures and films those are left out
+/// that have a scan's name: its texture, or the same heap once more.
+FileList list_heap_files(const std::vector<std::string>& names);
+
 /// The same, but each folder is one film, whose frames are in it.
 FileList list_with_frame_folders(const std::vector<std::string>& names);
 

@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <assimp/IOSystem.hpp>
@@ -24,122 +21,9 @@
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "dem/shape/scan/ply_file.h"
+#include "base/polygon_file.h"
 
 namespace repose::dem {
-
-namespace {
-
-/// Takes the next word from a line; empty at its end.
-std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view kBlanks = " \t\r\v\f";
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-  line.remove_prefix(word.size());
-  return word;
-}
-
-/// All of a word as a number.
-template <typename Number>
-bool read(std::string_view word, Number& number) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  const char* const end = word.data() + word.size();
-  const auto [stopped_at, error] = std::from_chars(word.data(), end, number);
-  return error == std::errc{} && stopped_at == end;
-}
-
-/// Reads line by line.
-class ObjReader {
- public:
-  explicit ObjReader(std::string_view bytes) : rest_(bytes) {}
-
-  PolygonSurface read_all() {
-    while (!rest_.empty()) {
-      joined_.clear();
-      std::string_view line = take_line();
-      const std::string_view keyword = take_word(line);
-      if (keyword == "v") read_corner(line);
-      if (keyword == "f") read_face(line);
-    }
-    check_faces();
-    return std::move(surface_);
-  }
-
- private:
-  [[noreturn]] static void wrong(std::size_t line, const std::string& what) {
-    throw base::InputError({.where = fmt::format("line {}", line), .value = what});
-  }
-
-  std::string_view take_physical_line() {
-    ++line_;
-    const std::size_t length = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, length);
-    rest_.remove_prefix(std::min(length + 1, rest_.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
-  }
-
-  /// A backslash at its end continues a line on the next one.
-  std::string_view take_line() {
-    std::string_view line = take_physical_line();
-    if (!line.ends_with('\\')) return line;
-    for (; line.ends_with('\\'); line = take_physical_line()) {
-      joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
-    }
-    joined_.append(line);
-    return joined_;
-  }
-
-  /// What may follow, a weight or colours, says nothing of the place.
-  void read_corner(std::string_view line) {
-    std::array<float, 3>& corner = surface_.corners.emplace_back();
-    for (float& coordinate : corner) {
-      const std::string_view word = take_word(line);
-      double number = 0;
-      if (!read(word, number)) wrong(line_, "a corner must have three coordinates, all numbers");
-      coordinate = static_cast<float>(number);
-    }
-  }
-
-  /// "7", "7/2" or "7//4": only the first number is of a corner; below 0 it counts back from here.
-  void read_face(std::string_view line) {
-    std::vector<int> face;
-    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
-      std::int64_t number = 0;
-      const bool is_read = read(word.substr(0, word.find('/')), number);
-      const auto corners = static_cast<std::int64_t>(surface_.corners.size());
-      const std::int64_t corner = number < 0 ? corners + number : number - 1;
-      if (!is_read || corner < 0 || corner >= std::numeric_limits<int>::max()) {
-        wrong(line_, "a face must name its corners by numbers that there are, from 1 on");
-      }
-      face.push_back(static_cast<int>(corner));
-    }
-    if (face.size() < 3) return;
-    surface_.faces.push_back(std::move(face));
-    lines_of_faces_.push_back(line_);
-  }
-
-  /// A face may stand before its corners.
-  void check_faces() const {
-    const auto corners = static_cast<int>(surface_.corners.size());
-    for (std::size_t i = 0; i < surface_.faces.size(); ++i) {
-      for (const int corner : surface_.faces[i]) {
-        if (corner < corners) continue;
-        wrong(lines_of_faces_[i], fmt::format("a face names corner {} of {}", corner + 1, corners));
-      }
-    }
-  }
-
-  std::string_view rest_;
-  std::string joined_;
-  std::size_t line_ = 0;
-  PolygonSurface surface_;
-  std::vector<std::size_t> lines_of_faces_;
-};
-
-}  // namespace
-
-PolygonSurface parse_obj(std::string_view bytes) { return ObjReader(bytes).read_all(); }
 
 namespace {
 
@@ -238,11 +122,20 @@ Mesh read_by_assimp(const std::filesystem::path& file, std::string_view bytes,
   return mesh;
 }
 
+/// As STL files have them, so that a surface is the same from either.
+std::array<float, 3> in_single_precision(const base::Corner& corner) {
+  return {static_cast<float>(corner[0]), static_cast<float>(corner[1]),
+          static_cast<float>(corner[2])};
+}
+
 /// For assimp to cut faces of more than three corners.
-std::string obj_of(const PolygonSurface& surface) {
+std::string obj_of(const base::PolygonSurface& surface) {
   std::string text;
   const auto out = std::back_inserter(text);
-  for (const auto& [x, y, z] : surface.corners) fmt::format_to(out, "v {} {} {}\n", x, y, z);
+  for (const base::Corner& corner : surface.corners) {
+    const auto [x, y, z] = in_single_precision(corner);
+    fmt::format_to(out, "v {} {} {}\n", x, y, z);
+  }
   for (const std::vector<int>& face : surface.faces) {
     text += 'f';
     for (const int corner : face) fmt::format_to(out, " {}", corner + 1);
@@ -252,22 +145,23 @@ std::string obj_of(const PolygonSurface& surface) {
 }
 
 /// Files of polygons are read here: assimp does not survive all that a damaged one may hold.
-PolygonSurface polygons_in(const std::filesystem::path& file, std::string_view bytes,
-                           const std::string& ending) {
+base::PolygonSurface polygons_in(const std::filesystem::path& file, std::string_view bytes,
+                                 const std::string& ending) {
   try {
-    return ending == ".ply" ? parse_ply(bytes) : parse_obj(bytes);
+    return ending == ".ply" ? base::parse_ply(bytes) : base::parse_obj(bytes);
   } catch (const base::InputError& error) {
     refuse_unreadable(file, error.what());
   }
 }
 
-Mesh mesh_of(const std::filesystem::path& file, const PolygonSurface& surface) {
+Mesh mesh_of(const std::filesystem::path& file, const base::PolygonSurface& surface) {
   std::size_t most = 0;
   for (const std::vector<int>& face : surface.faces) most = std::max(most, face.size());
   check_corners(file, most);
   if (most > 3) return read_by_assimp(file, obj_of(surface), ".obj");
   Mesh mesh;
-  for (const auto& [x, y, z] : surface.corners) {
+  for (const base::Corner& corner : surface.corners) {
+    const auto [x, y, z] = in_single_precision(corner);
     mesh.vertices.emplace_back(static_cast<double>(x), static_cast<double>(y),
                                static_cast<double>(z));
   }

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
-#include "dem/shape/scan/mesh_file.h"
+#include "base/polygon_file.h"
 
-namespace repose::dem {
+namespace repose::base {
 namespace {
 
 using ::testing::ElementsAre;
@@ -21,7 +21,7 @@ auto refuses(const std::string& what) { return ThrowsMessage<base::InputError>(H
 TEST(ObjFile, CornersAreNamedFromTheFirstOrBackFromHere) {
   const PolygonSurface surface = parse_obj(kFourCorners + "f 1 2 3\nf -4 -3 -1\n");
   EXPECT_THAT(surface.faces, ElementsAre(ElementsAre(0, 1, 2), ElementsAre(0, 1, 3)));
-  EXPECT_THAT(surface.corners[3], ElementsAre(0.0F, 0.0F, 40.0F));
+  EXPECT_THAT(surface.corners[3], ElementsAre(0.0, 0.0, 40.0));
 }
 
 TEST(ObjFile, AllButCornersAndFacesIsPassedOver) {
@@ -60,4 +60,4 @@ TEST(ObjFile, NothingIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace repose::dem
+}  // namespace repose::base

@@ -1,5 +1,3 @@
-#include "dem/shape/scan/ply_file.h"
-
 #include <array>
 #include <cstdint>
 #include <stdexcept>
@@ -7,9 +5,10 @@
 
 #include <gmock/gmock.h>
 
+#include "base/polygon_file.h"
 #include "tests/support/error_of.h"
 
-namespace repose::dem {
+namespace repose::base {
 namespace {
 
 using ::testing::ElementsAre;
@@ -105,4 +104,4 @@ TEST(PlyFile, HeadersThatAreNoneAreRefusedByLine) {
 }
 
 }  // namespace
-}  // namespace repose::dem
+}  // namespace repose::base

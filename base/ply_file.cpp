@@ -1,6 +1,5 @@
-#include "dem/shape/scan/ply_file.h"
-
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -10,13 +9,16 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/input_error.h"
+#include "base/polygon_file.h"
 
-namespace repose::dem {
+namespace repose::base {
 namespace {
 
 enum class Format { ascii, little_endian, big_endian };
@@ -58,7 +60,7 @@ struct Header {
 };
 
 [[noreturn]] void refuse_ply(const std::string& where, const std::string& what) {
-  throw base::InputError({.where = where, .value = what});
+  throw InputError({.where = where, .value = what});
 }
 
 /// Reads the header line by line.
@@ -240,11 +242,11 @@ bool is_corner_list(const Element& element, const Property& property) {
 
 void read_item(const Element& element, const std::string& where, Body& body,
                PolygonSurface& surface) {
-  std::array<float, 3> corner{};
+  Corner corner{};
   for (const Property& property : element.properties) {
     if (!property.length) {
       const double number = body.take(property.type, where);
-      if (const auto axis = axis_of(element, property)) corner[*axis] = static_cast<float>(number);
+      if (const auto axis = axis_of(element, property)) corner[*axis] = number;
       continue;
     }
     const std::int64_t length = body.take_whole(*property.length, where);
@@ -302,4 +304,4 @@ PolygonSurface parse_ply(std::string_view bytes) {
   return surface;
 }
 
-}  // namespace repose::dem
+}  // namespace repose::base

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "base/polygon_file.h"
+
+namespace repose::vision {
+
+/// Triangles as a file names them; without any it is a cloud of points.
+struct TriangleSoup {
+  std::vector<base::Corner> corners;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners that are all there
+};
+
+/// glTF's lengths are metres (glTF 2.0 Specification, sec. 3.4).
+inline constexpr double kGlbUnit_mm = 1000;
+
+bool is_glb(std::string_view bytes);
+
+/// The points and triangles of all meshes of a binary glTF file, where its nodes place them.
+/// Believes no number in it before what it counts is there.
+/// @throws base::InputError  what is wrong with it.
+TriangleSoup parse_glb(std::string_view bytes);
+
+}  // namespace repose::vision
