@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
@@ -206,8 +207,9 @@ constexpr const char* kMeasureNotes = R"(
 PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; or a
 film of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF; or
 a three-dimensional scan: PLY, OBJ, STL or GLB. A folder stands for all
-pictures, films and scans in it, except films that share a photo's name, as phones save both at once, and pictures that share a scan's,
-which are its texture. FILE may be - for standard output.
+pictures, films and scans in it, except films that share a photo's name, as
+phones save both at once, and pictures that share a scan's, which are its
+texture. FILE may be - for standard output.
 
 Scans: PLY, OBJ, STL and GLB of a heap with the ground around it, as surface or
 as cloud of points, however it is turned. The ground is found, or --ground-plane
