@@ -21,6 +21,7 @@ void read_result(Bytes bytes);
 void read_picture(Bytes bytes);
 void read_hints(Bytes bytes);
 void read_camera(Bytes bytes);
+void read_particles(Bytes bytes);
 void read_names(Bytes bytes);  ///< into the decks for other programs
 
 struct Reader {
@@ -28,7 +29,7 @@ struct Reader {
   void (*read)(Bytes bytes);
 };
 
-inline constexpr std::array<Reader, 11> kReaders = {{{"study", read_study},
+inline constexpr std::array<Reader, 12> kReaders = {{{"study", read_study},
                                                      {"table", read_table},
                                                      {"clump", read_clump},
                                                      {"scan", read_scan},
@@ -38,6 +39,7 @@ inline constexpr std::array<Reader, 11> kReaders = {{{"study", read_study},
                                                      {"picture", read_picture},
                                                      {"hints", read_hints},
                                                      {"camera", read_camera},
+                                                     {"particles", read_particles},
                                                      {"names", read_names}}};
 
 }  // namespace repose::fuzz
