@@ -84,6 +84,37 @@ void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
                   arguments.every));
 }
 
+/// What is said of pictures says nothing of particles, and the reverse.
+void check_positions(const MeasureArguments& arguments, MeasurePlan& plan) {
+  plan.positions = read_position_options(arguments.positions, plan.errors);
+  const auto file = std::ranges::find_if(plan.pictures, is_positions_file);
+  const std::string given = arguments.positions.given();
+  if (file == plan.pictures.end()) {
+    if (!given.empty()) {
+      plan.errors.push_back(fmt::format(
+          "{}: is for files of particles, and none is named. Fix: leave it out.", given));
+    }
+    return;
+  }
+  const ScaleArguments& scale = arguments.scale;
+  for (const auto& [option, is_given] :
+       {std::pair{"--exclude", !arguments.exclude.empty()},
+        std::pair{"--heap", !arguments.heap.empty()},
+        std::pair{"--ground", !arguments.ground.empty()},
+        std::pair{"--keep", !arguments.keep.empty()}, std::pair{"--drop", !arguments.drop.empty()},
+        std::pair{"--mask", !arguments.mask_file.empty()},
+        std::pair{"--save-hints", arguments.saves_hints},
+        std::pair{"--pitch-deg", !arguments.pitch_deg.empty()},
+        std::pair{"--camera-file", !scale.camera_file.empty()},
+        std::pair{"--board", scale.finds_board}, std::pair{"--scale", !scale.scale.empty()}}) {
+    if (!is_given) continue;
+    plan.errors.push_back(
+        fmt::format("{}: is for pictures, and {} is a file of particles. Fix: leave it out, or "
+                    "measure pictures by themselves.",
+                    option, file->string()));
+  }
+}
+
 }  // namespace
 
 MeasurePlan plan_measure(const MeasureArguments& arguments) {
@@ -110,6 +141,7 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
                                              : vision::list_pictures_and_films(arguments.pictures),
                            plan.errors, plan.notes);
   read_step(arguments, plan);
+  check_positions(arguments, plan);
   const std::vector<OutputPlace> places = {
       json_place(arguments.json_file, "\"ground_tilt_deg\""),
       csv_place("--csv", arguments.csv_file, "ground_tilt_deg"),
@@ -128,10 +160,12 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
 namespace {
 
 constexpr const char* kMeasureNotes = R"(
-PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; or a film
+PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; a film
 of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF. A folder
 stands for all pictures and films in it, except films that share a photo's name,
-as phones save both at once. FILE may be - for standard output.
+as phones save both at once. A file of particles, as simulation programs write
+them, is drawn from nine sides and measured in these pictures; its angle is
+their mean. --json FILE and the like may be - for standard output.
 
 Films: the heap at rest is measured in the mean of the frames of the last second
 in which nothing moves. A heap that still moves when the film ends is refused:
@@ -184,11 +218,11 @@ count once, with their mean.
 
 Command measure_command() {
   const auto given = std::make_shared<MeasureArguments>();
-  return {
+  Command command{
       .name = "measure",
       .summary = "Measure heaps in pictures and films",
       .options =
-          {{"pictures", "PICTURE|FOLDER ...", "Pictures or films, or folders of them",
+          {{"pictures", "PICTURE|FOLDER ...", "Pictures, films or particles; folders",
             &given->pictures, true},
            {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
            {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
@@ -219,9 +253,12 @@ Command measure_command() {
            {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
            {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
            {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
-      .notes = kMeasureNotes,
+      .notes = std::string(kMeasureNotes) + kPositionNotes,
       .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
       .run = [given] { return run_measure(*given); }};
+  const auto more = position_options(given->positions);
+  command.options.insert(command.options.end(), more.begin(), more.end());
+  return command;
 }
 
 }  // namespace repose::cli

@@ -16,7 +16,8 @@ OPEN = {"effects", "interval_widths", "determined", "levels", "coded", "ranges",
 # Commands by the heading in json.md under which their output is described. (repose verify is left out:
 # it takes long.)
 OUTPUTS = {
-    "measure": ["measure photos --json - --threads 2", "measure heap.avi --every 0.5 --json -"],
+    "measure": ["measure photos --json - --threads 2", "measure heap.avi --every 0.5 --json -",
+                "measure particles.csv --json -"],
     "measure#summary": ["measure photos --summary -"],
     "compare": ["compare photo.jpg render.png --json -"],
     "compare of sets": ["compare photos render.png --json -"],
