@@ -12,7 +12,7 @@ import workplace
 
 # Objects whose keys are names of factors, coefficients, observables or experiments.
 OPEN = {"effects", "interval_widths", "determined", "levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated", "checked_at",
-        "stiffness_factor", "shortest_timestep_s", "definitions_deg", "simulated_deg", "repeat_sd"}
+        "stiffness_factor", "shortest_timestep_s", "definitions_deg", "simulated_deg", "repeat_sd", "reading_sd"}
 # Commands by the heading in json.md under which their output is described. (repose verify is left out:
 # it takes long.)
 OUTPUTS = {

@@ -296,10 +296,14 @@ def prepare(folder, root, repose):
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
     (folder / "two_days.csv").write_text(TWO_DAYS, encoding="utf-8")
     engines = documents.Document(root / "docs/engines.md", root)
-    for language, names in (("toml", ["grain.toml"]), ("csv", ["grain_runs.csv", "grain_points.csv"])):
+    for language, names in (("toml", ["grain.toml", "seen.toml"]), ("csv", ["grain_runs.csv", "seen_runs.csv", "grain_points.csv"])):
         blocks = [block for block in engines.blocks if block.language == language]
         for name, block in zip(names, blocks):
             (folder / name).write_text("\n".join([*(line.text for line in block.lines), ""]), encoding="utf-8")
+    (folder / "heaps").mkdir()
+    for run in range(1, 7):
+        spheres = packed_cone(12 + 4 * run, height=24)
+        (folder / f"heaps/run_{run}.csv").write_text(particle_csv(spheres), encoding="utf-8")
     for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):
         subprocess.run([repose, "calibrate", name, "--out", out], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)

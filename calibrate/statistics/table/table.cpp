@@ -325,7 +325,8 @@ Table parse_table(const std::string& name, std::string_view text, NoRows no_rows
       .name = name,
       .columns = std::move(rows.front().cells),
       .rows = {std::make_move_iterator(rows.begin() + 1), std::make_move_iterator(rows.end())},
-      .has_decimal_comma = delimiter != ','};
+      .has_decimal_comma = delimiter != ',',
+      .delimiter = delimiter == kNoDelimiter ? ';' : delimiter};
   base::Faults errors;
   check_header(table, rows.front().line, errors);
   errors.require(no_rows == NoRows::allowed || !table.rows.empty(),
