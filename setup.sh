@@ -22,7 +22,7 @@ needed="g++ cmake ninja-build pkg-config
   libosmesa6-dev libmeshoptimizer-dev libgif-dev
   libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libheif-dev libexif-dev libcsv-dev
-  libcairo2-dev
+  zlib1g-dev libcairo2-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core"
 # npm may also come from elsewhere than Debian.
 command -v npm >/dev/null || needed="$needed npm"

@@ -21,11 +21,13 @@ namespace repose::calibrate {
 /// k(x, x') = signal^2 M(r) + trend^2 s.s' + level^2, with s = (x - 1/2) / length, r = |s - s'|,
 /// M(r) = (1 + sqrt5 r + 5/3 r^2) exp(-sqrt5 r): Matern 5/2, Rasmussen and Williams (2006) eq.
 /// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. On the runs' diagonal is noise^2 besides,
-/// by the number of runs that a value is the mean of.
+/// by the number of runs that a value is the mean of, and a value's own variance, which is known.
 class Covariance {
  public:
   /// @param counts  of runs that each value is the mean of; empty: of one
-  explicit Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts = {});
+  /// @param own_variances  variance of each value beside the noise; empty: none has any
+  explicit Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts = {},
+                      const Eigen::ArrayXd& own_variances = {});
 
   /// Between all runs (rows of x), noise included.
   Eigen::MatrixXd of_runs(const Eigen::MatrixXd& x) const;
@@ -48,6 +50,7 @@ class Covariance {
   double trend2_;
   double noise2_;
   Eigen::ArrayXd counts_;
+  Eigen::ArrayXd own_variances_;
 };
 
 namespace {
@@ -79,13 +82,15 @@ Eigen::MatrixXd as_rows(const std::vector<Point>& points) {
 
 }  // namespace
 
-Covariance::Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts)
+Covariance::Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts,
+                       const Eigen::ArrayXd& own_variances)
     : length_(Eigen::Map<const Eigen::RowVectorXd>(hyper.length.data(),
                                                    static_cast<Eigen::Index>(hyper.length.size()))),
       signal2_(hyper.signal * hyper.signal),
       trend2_(hyper.trend * hyper.trend),
       noise2_(hyper.noise * hyper.noise),
-      counts_(counts) {}
+      counts_(counts),
+      own_variances_(own_variances) {}
 
 Eigen::MatrixXd Covariance::scaled(const Eigen::MatrixXd& x) const {
   return (x.array() - .5).rowwise() / length_.array();
@@ -100,6 +105,7 @@ Eigen::MatrixXd Covariance::of_runs(const Eigen::MatrixXd& x) const {
       k(j, i) = k(i, j);
     }
     k(j, j) += kLevel2 + signal2_ + (counts_.size() > 0 ? noise2_ / counts_(j) : noise2_);
+    if (own_variances_.size() > 0) k(j, j) += own_variances_(j);
   }
   return k;
 }
@@ -189,9 +195,8 @@ std::vector<double> to_logs(const Hyperparameters& hyper) {
   return logs;
 }
 
-Eigen::ArrayXd counts_of(const MeansOfRuns& means) {
-  return Eigen::Map<const Eigen::ArrayXd>(means.counts.data(),
-                                          static_cast<Eigen::Index>(means.counts.size()));
+Eigen::ArrayXd as_array(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 /// Minus the logarithm of the posterior density, and its gradient.
@@ -202,7 +207,8 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
                     const MeansOfRuns& means)
       : x_(x),
         y_(y),
-        counts_(counts_of(means)),
+        counts_(as_array(means.counts)),
+        own_variances_(as_array(means.own_variances)),
         squares_(means.squares),
         df_(means.df),
         priors_(static_cast<std::size_t>(x.cols()) + 3) {
@@ -213,7 +219,7 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
 
   bool Evaluate(const double* logs, double* cost, double* gradient) const override {
     const Hyperparameters hyper = from_logs(logs, x_.cols());
-    const Covariance covariance(hyper, counts_);
+    const Covariance covariance(hyper, counts_, own_variances_);
     const Eigen::LLT<Eigen::MatrixXd> root(covariance.of_runs(x_));
     if (root.info() != Eigen::Success) return false;
     const Eigen::VectorXd alpha = root.solve(y_);
@@ -243,6 +249,7 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
   const Eigen::MatrixXd& x_;
   const Eigen::VectorXd& y_;
   Eigen::ArrayXd counts_;
+  Eigen::ArrayXd own_variances_;
   double squares_;
   double df_;
   std::vector<LogNormal> priors_;
@@ -321,10 +328,12 @@ GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<
 
   MeansOfRuns scaled = means;
   scaled.squares /= state->scale * state->scale;
+  for (double& variance : scaled.own_variances) variance /= state->scale * state->scale;
   const SearchResult found =
       search_hyperparameters(state->x, values, is_stochastic, start, starts, scaled);
   state->hyper = found.hyper;
-  state->covariance = Covariance(found.hyper, counts_of(means));
+  state->covariance =
+      Covariance(found.hyper, as_array(scaled.counts), as_array(scaled.own_variances));
   // The density of y, not of the scaled y.
   state->log_posterior =
       found.log_posterior - (static_cast<double>(y.size()) + means.df) * std::log(state->scale);

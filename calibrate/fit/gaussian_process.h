@@ -31,6 +31,9 @@ struct MeansOfRuns {
   std::vector<double> counts;  ///< of each value; empty: all are single runs
   double squares = 0;          ///< of runs about the means of their places, where these are told
   double df = 0;               ///< their degrees of freedom
+  /// Variance that each value has beside the noise, as of a reading that is uncertain by itself;
+  /// empty: none has.
+  std::vector<double> own_variances = {};
 };
 
 /// Error of a run's prediction by all other runs, and the sd that was expected of it.

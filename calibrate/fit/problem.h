@@ -168,6 +168,9 @@ struct Run {
   int repeats = 1;      ///< runs with other seeds that the readings are means of
   /// The sd of single ones among these, by the reading's name, where it is told.
   std::map<std::string, double> repeat_sd = {};
+  /// Standard uncertainty that a reading has by itself, beside the run's chance, by its name: of an
+  /// angle that was measured in a picture of the run.
+  std::map<std::string, double> reading_sd = {};
 };
 
 /// An experiment that the study does not have. Where it was simulated all the same, the advice says

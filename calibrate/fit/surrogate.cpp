@@ -22,7 +22,7 @@ namespace {
 
 auto order_of(const Run& run) {
   return std::tie(run.job.experiment, run.job.values, run.job.seed, run.job.inputs, run.failure,
-                  run.readings, run.repeats, run.repeat_sd);
+                  run.readings, run.repeats, run.repeat_sd, run.reading_sd);
 }
 
 void require_of(const Problem& problem, const Run& run) {
@@ -167,6 +167,11 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
     training_set.repeats.push_back(run.repeats);
     training_set.repeat_sds.push_back(
         sd == run.repeat_sd.end() ? std::numeric_limits<double>::quiet_NaN() : sd->second);
+    const auto own = run.reading_sd.find(reading);
+    training_set.own_sds.push_back(own == run.reading_sd.end() ? 0 : own->second);
+  }
+  if (std::ranges::all_of(training_set.own_sds, [](double sd) { return sd == 0; })) {
+    training_set.own_sds.clear();
   }
   if (std::ranges::all_of(training_set.repeats, [](int repeats) { return repeats == 1; })) {
     training_set.repeats.clear();
@@ -281,11 +286,14 @@ GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparamet
     const double reading = training_set_.readings[i];
     places.push_back(training_set_.places[i]);
     values.push_back(AsinhWarp{warp, 0}.warped(reading));
+    // The warp is straight over what repeats scatter, and a reading is uncertain.
+    const double slope = warp > 0 ? 1 / std::hypot(reading, warp) : 1;
+    if (!training_set_.own_sds.empty()) {
+      means.own_variances.push_back(std::pow(slope * training_set_.own_sds[i], 2));
+    }
     if (training_set_.repeats.empty()) continue;
     means.counts.push_back(repeats_of(i));
     if (!training_set_.is_stochastic || runs_told(i) < 2) continue;
-    // The warp is straight over what repeats scatter.
-    const double slope = warp > 0 ? 1 / std::hypot(reading, warp) : 1;
     means.df += runs_told(i) - 1;
     means.squares += (runs_told(i) - 1) * std::pow(slope * training_set_.repeat_sds[i], 2);
   }

@@ -43,6 +43,8 @@ struct TrainingSet {
   /// mean.
   std::vector<int> repeats = {};
   std::vector<double> repeat_sds = {};
+  /// Run::reading_sd of each reading, 0 where it has none; empty: none has.
+  std::vector<double> own_sds = {};
 };
 
 /// One reading as a function of all parameters, with its uncertainty.

@@ -394,6 +394,7 @@ void fields(Io& io, Held<Io, Run>& run) {
     io("repeats", run.repeats);
     io("repeat_sd", run.repeat_sd);
   }
+  if (io.has("reading_sd", !run.reading_sd.empty())) io("reading_sd", run.reading_sd);
 }
 
 template <typename Items>

@@ -180,21 +180,28 @@ std::string next_runs_csv(const TableStudy& study, const TableRuns& table,
     columns.insert(columns.end(), readings.begin(), readings.end());
   }
   if (std::ranges::find(columns, kReason) == columns.end()) columns.emplace_back(kReason);
+  // As the table is written, so that rows can be put below it.
+  const std::string between(1, table.delimiter);
+  const auto line = [&](const std::vector<std::string>& cells) {
+    return fmt::format("{}\n", fmt::join(cells, between));
+  };
   std::vector<std::string> cells;
   for (const std::string& column : columns) cells.push_back(cell_of(column));
-  std::string text = fmt::format("{}\n", fmt::join(cells, ","));
+  std::string text = line(cells);
   for (const NextRun& run : runs) {
     cells.clear();
     for (const std::string& column : columns) {
       const auto parameter = std::ranges::find(study.parameters, column, &Parameter::name);
       if (parameter != study.parameters.end()) {
         const auto j = static_cast<std::size_t>(parameter - study.parameters.begin());
-        cells.push_back(fmt::format("{}", run.values[j]));
+        std::string number = fmt::format("{}", run.values[j]);
+        if (table.has_decimal_comma) std::ranges::replace(number, '.', ',');
+        cells.push_back(std::move(number));
       } else {
         cells.push_back(column == kReason ? cell_of(run.reason) : "");
       }
     }
-    text += fmt::format("{}\n", fmt::join(cells, ","));
+    text += line(cells);
   }
   return text;
 }

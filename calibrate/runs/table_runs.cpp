@@ -13,6 +13,7 @@
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
+#include "calibrate/runs/pictured_cells.h"
 #include "calibrate/runs/table_columns.h"
 #include "calibrate/statistics/table/other_rows.h"
 
@@ -27,6 +28,7 @@ struct Row {
   std::vector<double> values;                          ///< of the parameters
   std::map<std::string, std::optional<double>> reads;  ///< none: empty, or the run failed
   std::map<std::string, double> sds;
+  std::map<std::string, double> own_sds;  ///< of readings measured in pictures
   std::optional<std::uint64_t> seed;
   int repeats = 1;
   std::string failure;                          ///< of all readings
@@ -358,6 +360,10 @@ class Collector {
     const auto value = row.reads.find(reading);
     if (value == row.reads.end() || !value->second) return std::nullopt;
     run.readings["value"] = *value->second;
+    if (const auto own = row.own_sds.find(reading); own != row.own_sds.end()) {
+      run.reading_sd["value"] = own->second;  // of one run, whatever other readings are means of
+      return run;
+    }
     run.repeats = row.repeats;
     if (const auto sd = row.sds.find(reading); sd != row.sds.end()) {
       run.repeat_sd["value"] = sd->second;
@@ -461,6 +467,16 @@ void note_columns(const Table& table, const TableColumns& columns, const std::ve
   }
 }
 
+/// Cells are not parted by commas, and some number has one.
+bool writes_decimal_commas(const Table& table) {
+  if (table.delimiter == ',') return false;
+  return std::ranges::any_of(table.rows, [](const TableRow& row) {
+    return std::ranges::any_of(row.cells, [](const std::string& cell) {
+      return cell.find(',') != std::string::npos && number_of(cell).has_value();
+    });
+  });
+}
+
 }  // namespace
 
 TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesystem::path>& files,
@@ -474,8 +490,17 @@ TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesy
       found.texts.push_back(base::read_whole_file(file));
       Table table = parse_table(file.string(), found.texts.back(), no_rows);
       found.files.push_back(file.filename().string());
-      if (found.columns.empty()) found.columns = table.columns;
+      if (found.columns.empty()) {
+        found.columns = table.columns;
+        // Others than the usual ones are told by a line of their own, which rows have not.
+        found.delimiter = table.delimiter == '|' ? ';' : table.delimiter;
+        found.has_decimal_comma = writes_decimal_commas(table);
+      }
       base::Faults own;
+      const PicturedCells pictured = measure_pictured_cells(study, file.parent_path(), table, own);
+      notes.insert(notes.end(), pictured.notes.begin(), pictured.notes.end());
+      found.texts.insert(found.texts.end(), pictured.fingerprints.begin(),
+                         pictured.fingerprints.end());
       const Names readings = readings_of(study);
       const OtherRows other = take_other_rows(table, readings, Unlabelled::noted, own);
       for (const auto& [what, why] : other.left_out) {
@@ -483,8 +508,13 @@ TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesy
       }
       notes.insert(notes.end(), other.notes.begin(), other.notes.end());
       RowReader reader(study, table, own);
-      const std::vector<Row> rows = reader.rows();
+      std::vector<Row> rows = reader.rows();
       own.throw_if_any();
+      for (Row& row : rows) {
+        if (const auto of = pictured.sds.find(row.line); of != pictured.sds.end()) {
+          row.own_sds = of->second;
+        }
+      }
       note_columns(table, reader.columns(), rows, reader.unknown_words(), notes);
       collector.add(table.name, reader.columns(), rows);
     } catch (const base::InputError& error) {
@@ -504,6 +534,8 @@ TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesy
   }
   made.files = std::move(found.files);
   made.columns = std::move(found.columns);
+  made.delimiter = found.delimiter;
+  made.has_decimal_comma = found.has_decimal_comma;
   made.texts = std::move(found.texts);
   made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
   return made;

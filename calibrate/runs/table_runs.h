@@ -22,6 +22,8 @@ struct TableRuns {
   std::vector<std::vector<double>> places;
   std::vector<std::string> files;    ///< without their folders
   std::vector<std::string> columns;  ///< of the first table
+  char delimiter = ',';              ///< likewise
+  bool has_decimal_comma = false;    ///< likewise: some number of its is written with one
   std::vector<std::string> texts;    ///< of the files
   int rows = 0;                      ///< that count: `places`
   int failed = 0;                    ///< of these, with a status or a NaN that says so

@@ -137,6 +137,7 @@ class Reader {
       constexpr double kRightAngle_deg = 90;
       observable.least = 0;
       observable.most = kRightAngle_deg;
+      study_.pictured[item.name] = read_pictured(measured);
     }
     read_mean(measured, observable);
     read_values(measured, observable);
@@ -156,6 +157,26 @@ class Reader {
     const bool is_held_out = measured.truth("held_out", "held_out = true").value_or(false);
     measured.reject_unknown_keys();
     (is_held_out ? study_.held_out : study_.measured).push_back(std::move(observable));
+  }
+
+  /// Of an angle: how it is measured in pictures of runs.
+  PicturedReading read_pictured(Section& measured) {
+    PicturedReading pictured{.definition = dem::read_definition(measured), .placement = {}};
+    const auto up = measured.text("up", "up = \"y\"");
+    if (up) {
+      const auto found = std::ranges::find(kUpNames, *up, &std::pair<std::string_view, Up>::first);
+      if (found != kUpNames.end()) {
+        pictured.placement.up = found->second;
+      } else {
+        measured.wrong(*measured.value("up"),
+                       "the direction that is up is one of x, y, z, -x, -y "
+                       "and -z",
+                       "that of the files of particles");
+      }
+    }
+    pictured.placement.plate = measured.number(
+        "plate_height", dem::from_to(-kMostMeasured, kMostMeasured), "plate_height = 0");
+    return pictured;
   }
 
   /// One way of saying it, and only one.

@@ -2,27 +2,37 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "calibrate/fit/problem.h"
+#include "calibrate/particles/standing_heap.h"
 #include "dem/study/study.h"
 
 /// Studies of somebody's own runs, made with whatever program: parameters of any name, numbers that
 /// a bench measured, and a table that says what the runs gave.
 namespace repose::calibrate {
 
+/// How a reading is measured where the table has pictures or particles of the runs in place of
+/// numbers.
+struct PicturedReading {
+  std::string definition = {};  ///< of base/angle_definition.h; empty: not said
+  HeapPlacement placement = {};
+};
+
 /// [parameter] and [measured] of a study.
 struct TableStudy {
   std::filesystem::path file;
   dem::StudyHeading heading;
-  std::vector<Parameter> parameters;          ///< in the order of the file
-  std::vector<Observable> measured;           ///< likewise; each is its own experiment's "value"
-  std::vector<Observable> held_out;           ///< predicted, not fitted
-  std::vector<std::filesystem::path> sheets;  ///< of readings, which the study names
-  std::vector<std::string> notes;             ///< what was taken for granted
-  std::string text;                           ///< of the file
-  std::vector<std::string> settings;          ///< laid over it
+  std::vector<Parameter> parameters;  ///< in the order of the file
+  std::vector<Observable> measured;   ///< likewise; each is its own experiment's "value"
+  std::vector<Observable> held_out;   ///< predicted, not fitted
+  std::map<std::string, PicturedReading> pictured;  ///< by the reading; of all angles
+  std::vector<std::filesystem::path> sheets;        ///< of readings, which the study names
+  std::vector<std::string> notes;                   ///< what was taken for granted
+  std::string text;                                 ///< of the file
+  std::vector<std::string> settings;                ///< laid over it
 };
 
 /// Whether a study file has parameters of its own in place of a particle's coefficients. False

@@ -45,6 +45,7 @@ namespace fs = std::filesystem;
 /// "heap.mp4 at 1.20 s".
 std::string title_of(const fs::path& file, const MeasuredPicture& measured) {
   const std::string name = file.filename().string();
+  if (measured.positions) return name + ", the first of its views";
   if (!measured.filmed) return name;
   if (measured.filmed->time_s) return fmt::format("{} at {:.2f} s", name, *measured.filmed->time_s);
   const auto& stretch = measured.filmed->stretch;
@@ -301,7 +302,39 @@ std::vector<MeasuredPicture> measure_one_scan(const MeasurePlan& plan, std::size
   return measured;
 }
 
-/// Measures the plan's picture, film or scan of this place, and draws its overlays.
+/// Drawn from all around. The overlay is of the first view.
+std::vector<MeasuredPicture> measure_one_of_particles(const MeasurePlan& plan, std::size_t index,
+                                                      const std::function<void(double)>& progress) {
+  const fs::path& file = plan.pictures[index];
+  std::vector<MeasuredPicture> measured(1);
+  MeasuredPicture& one = measured.front();
+  one.file = file.string();
+  attempt(one, [&] {
+    one.told.measuring = plan.options;
+    one.positions = calibrate::measure_positions(file, plan.positions, plan.options, progress);
+    calibrate::MeasuredPositions& positions = *one.positions;
+    one.angle = positions.angle;
+    one.sizes = positions.sizes;
+    one.has_scale = positions.mm_per_px > 0;
+    MeasuredPicture shown;
+    shown.file = one.file;
+    shown.positions.emplace();
+    shown.angle = positions.views.front().angle;
+    const Seen seen{positions.first_picture, plan.options};
+    if (!plan.overlays.empty()) draw(seen, file, plan.overlays[index], shown);
+    one.overlay_error = shown.overlay_error;
+    if (plan.keeps_overlays) {
+      one.overlay = calibrate::report::overlay_for_page(
+          seen.picture, shown.angle, notes_for(file, shown, seen), plan.pictures.size());
+    }
+    positions.first_picture = {};
+    drop_large_parts(shown);
+    positions.views.front().angle = std::move(shown.angle);
+  });
+  return measured;
+}
+
+/// Measures the plan's file of this place, and draws its overlays.
 /// @param progress  told which fraction is done; what it throws, other than what says that a file
 ///   is wrong, ends the work
 /// @returns one, and behind it a film's frames where the plan wants them
@@ -310,10 +343,16 @@ std::vector<MeasuredPicture> measure_file(const MeasurePlan& plan, std::size_t i
   const fs::path& file = plan.pictures[index];
   std::error_code ignored;
   const bool is_film = vision::has_film_ending(file) || fs::is_directory(file, ignored);
-  const bool is_scan = !is_film && vision::has_scan_ending(file);
-  std::vector<MeasuredPicture> measured = is_film   ? measure_one_film(plan, index, progress)
-                                          : is_scan ? measure_one_scan(plan, index)
-                                                    : measure_one_picture(plan, index);
+  std::vector<MeasuredPicture> measured;
+  if (is_film) {
+    measured = measure_one_film(plan, index, progress);
+  } else if (vision::has_scan_ending(file)) {
+    measured = measure_one_scan(plan, index);
+  } else if (is_positions_file(file)) {
+    measured = measure_one_of_particles(plan, index, progress);
+  } else {
+    measured = measure_one_picture(plan, index);
+  }
   progress(1);
   return measured;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/particles/positions_angle.h"
 #include "calibrate/report/measure_report.h"
 #include "cli/common/output.h"
 #include "cli/measure/measure_options.h"
@@ -31,7 +32,9 @@ struct FilmedPicture {
 
 struct MeasuredPicture {
   std::string file;
-  std::optional<FilmedPicture> filmed;  ///< none: the file is a picture
+  std::optional<FilmedPicture> filmed;  ///< none: the file is a picture, or of particles
+  /// None: the file is a picture or a film. Without the first view's picture and edges.
+  std::optional<calibrate::MeasuredPositions> positions;
   Outcome outcome = Outcome::measured;
   std::string error;
   vision::ReposeAngle angle;         ///< without the outline and edge points, which are large

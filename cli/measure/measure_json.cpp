@@ -77,11 +77,18 @@ void add_film(Row& row, const std::optional<FilmedPicture>& filmed) {
   row.add_number(filmed->film.frames_per_s);
 }
 
+/// What millimetres come from; empty: there are none.
+std::string_view scale_name(const MeasuredPicture& picture) {
+  if (!picture.has_scale) return {};
+  if (picture.positions) return "positions";
+  return picture.board ? "board" : "given";
+}
+
 /// Empty where there is no scale.
 void add_sizes(Row& row, const MeasuredPicture& picture) {
   const vision::HeapSizes& sizes = picture.sizes;
   row.add_text(picture.lens ? picture.told.scale.lens_file.string() : "");
-  row.add_text(!picture.has_scale ? "" : picture.board ? "board" : "given");
+  row.add_text(scale_name(picture));
   for (const auto* estimate :
        {&sizes.mm_per_px, &sizes.height_mm, &sizes.base_mm, &sizes.cone_volume_ml,
         &sizes.left_run_out_mm, &sizes.right_run_out_mm}) {
@@ -308,7 +315,7 @@ void add_sizes(const MeasuredPicture& picture, Json& json) {
   const vision::HeapSizes& sizes = picture.sizes;
   json["camera"] = lens_json(picture);
   json["board"] = board_json(picture.board);
-  json["scale"] = !picture.has_scale ? Json() : Json(picture.board ? "board" : "given");
+  json["scale"] = picture.has_scale ? Json(scale_name(picture)) : Json();
   add_estimate(json, "mm_per_px", sizes.mm_per_px);
   add_estimate(json, "height_mm", sizes.height_mm);
   add_estimate(json, "base_mm", sizes.base_mm);
@@ -368,6 +375,32 @@ void add_scan(const std::optional<vision::ScannedHeap>& scan, Json& json) {
                   {"azimuth_sd_deg", degrees(scan->azimuth_sd_rad)}};
 }
 
+/// Of a file of particles: what is in it, and what each view gave.
+Json positions_json(const std::optional<calibrate::MeasuredPositions>& positions) {
+  if (!positions) return nullptr;
+  const calibrate::PositionsFile& file = positions->file;
+  Json views = Json::array();
+  for (const calibrate::PositionsView& view : positions->views) {
+    views.push_back({{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
+                     {"status", name_of(view.angle.status)},
+                     {"angle_deg", degrees(view.angle.angle_rad)},
+                     {"uncertainty_deg", degrees(view.angle.uncertainty_rad)}});
+  }
+  return {{"format", file.format},
+          {"unit", file.unit.empty() ? Json() : Json(file.unit)},
+          {"step", file.step.empty() ? Json() : Json(file.step)},
+          {"steps", file.steps},
+          {"particles", file.heap.grains},
+          {"spheres", file.heap.spheres},
+          {"up", calibrate::name_of(file.up)},
+          {"plate", file.heap.plate},
+          {"plate_from", file.heap.is_plate_given ? "given" : "found"},
+          {"below_plate", file.heap.below_plate},
+          {"in_the_air", file.heap.in_the_air},
+          {"between_views_deg", degrees(positions->between_views_rad)},
+          {"views", views}};
+}
+
 Json picture_json(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Json json{{"file", picture.file},
@@ -398,6 +431,7 @@ Json picture_json(const MeasuredPicture& picture) {
   add_sizes(picture, json);
   add_film(picture.filmed, json);
   add_scan(picture.scan, json);
+  json["positions"] = positions_json(picture.positions);
   if (picture.outcome != Outcome::measured) {
     json["reason"] = picture.error;
     for (const char* unknown :

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -94,25 +95,16 @@ void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
                   arguments.every));
 }
 
-std::optional<double> read_unit_mm(const OptionText& typed) {
-  constexpr std::array<std::pair<std::string_view, double>, 5> kUnits{
-      {{"um", 1e-3}, {"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}}};
-  if (typed.text.empty()) return std::nullopt;
-  for (const auto& [name, mm] : kUnits) {
-    if (typed.text == name) return mm;
-  }
-  typed.refuse("um, mm, cm, m or in: what one unit of the scan's file is",
-               "--unit m, as most telephones write.");
-  return std::nullopt;
-}
-
-/// What is said of scans; none of it means anything for pictures, nor the other way round.
-void read_scan_options(const MeasureArguments& arguments, MeasurePlan& plan) {
+/// What is said of scans and of particles means nothing for pictures, nor the other way round.
+void read_scans_and_particles(const MeasureArguments& arguments, MeasurePlan& plan) {
+  plan.positions = read_position_options(arguments.positions, plan.errors);
   vision::ScanOptions& scan = plan.scan;
   scan.window_from = plan.options.window_from;
   scan.window_to = plan.options.window_to;
   scan.names = kMeasureFields;
-  scan.unit_mm = read_unit_mm({"--unit", arguments.unit, plan.errors});
+  if (const auto unit_m = calibrate::unit_named(arguments.positions.unit)) {
+    scan.unit_mm = 1000 * *unit_m;
+  }
   if (!arguments.ground_plane.empty()) {
     if (const auto given = numbers_in<double, 9>(arguments.ground_plane)) {
       const auto& n = *given;
@@ -123,38 +115,47 @@ void read_scan_options(const MeasureArguments& arguments, MeasurePlan& plan) {
           "read them off the scan in a viewer, such as MeshLab.");
     }
   }
-  const auto scans = static_cast<std::size_t>(
-      std::count_if(plan.pictures.begin(), plan.pictures.end(), vision::has_scan_ending));
-  const auto refuse_without = [&](const char* option, const std::string& text, bool is_usable,
-                                  const char* what) {
-    if (text.empty() || is_usable) return;
-    plan.errors.push_back(
-        fmt::format("{} {}: there are no {}. Rule: it says something of {} only. "
-                    "Fix: leave it out.",
-                    option, text, what, what));
-  };
-  const bool has_scans = scans > 0, has_pictures = scans < plan.pictures.size();
+}
+
+/// Options that say nothing of any of the files, or that not all of them take.
+void check_kinds_of_files(const MeasureArguments& arguments, MeasurePlan& plan) {
   if (plan.pictures.empty()) return;
-  refuse_without("--unit", arguments.unit, has_scans, "scans");
-  refuse_without("--ground-plane", arguments.ground_plane, has_scans, "scans");
-  for (const auto& [option, text] : {std::pair("--heap", &arguments.heap),
-                                     {"--half", &arguments.half},
-                                     {"--ground", &arguments.ground},
-                                     {"--mask", &arguments.mask_file},
-                                     {"--pitch-deg", &arguments.pitch_deg},
-                                     {"--scale", &arguments.scale.scale},
-                                     {"--camera-file", &arguments.scale.camera_file}}) {
-    refuse_without(option, *text, has_pictures, "pictures");
-  }
-  if (has_scans && plan.options.method == vision::Method::paper) {
-    plan.errors.emplace_back(
-        "--method paper: it is of pictures, and there are scans. Fix: measure the scans apart.");
-  }
-  if (has_scans && !base::is_usual_definition(plan.options.definition)) {
+  const auto scan = std::ranges::find_if(plan.pictures, vision::has_scan_ending);
+  const auto particles = std::ranges::find_if(plan.pictures, is_positions_file);
+  const bool has_scan = scan != plan.pictures.end();
+  const bool has_particles = particles != plan.pictures.end();
+  const PositionArguments& said = arguments.positions;
+  for (const auto& [option, is_given, is_usable, what] :
+       {std::tuple{"--unit", !said.unit.empty(), has_scan || has_particles,
+                   "scans and files of particles"},
+        std::tuple{"--ground-plane", !arguments.ground_plane.empty(), has_scan, "scans"},
+        std::tuple{said.of_particles(), *said.of_particles() != 0, has_particles,
+                   "files of particles"}}) {
+    if (!is_given || is_usable) continue;
     plan.errors.push_back(
-        fmt::format("--definition {}: it is of pictures, and there are scans. Fix: measure the "
-                    "scans apart; --definitions lists their angles by the others, too.",
-                    arguments.definition));
+        fmt::format("{}: is for {}, and none is named. Fix: leave it out.", option, what));
+  }
+  if (!has_scan && !has_particles) return;
+  const std::string other =
+      has_scan ? scan->string() + " is a scan" : particles->string() + " is a file of particles";
+  const ScaleArguments& scale = arguments.scale;
+  for (const auto& [option, is_given] :
+       {std::pair{"--exclude", !arguments.exclude.empty()},
+        std::pair{"--heap", !arguments.heap.empty()}, std::pair{"--half", !arguments.half.empty()},
+        std::pair{"--ground", !arguments.ground.empty()},
+        std::pair{"--keep", !arguments.keep.empty()}, std::pair{"--drop", !arguments.drop.empty()},
+        std::pair{"--mask", !arguments.mask_file.empty()},
+        std::pair{"--save-hints", arguments.saves_hints},
+        std::pair{"--pitch-deg", !arguments.pitch_deg.empty()},
+        std::pair{"--camera-file", !scale.camera_file.empty()},
+        std::pair{"--board", scale.finds_board}, std::pair{"--scale", !scale.scale.empty()},
+        std::pair{"--method paper", has_scan && plan.options.method == vision::Method::paper},
+        std::pair{"--definition",
+                  has_scan && !base::is_usual_definition(plan.options.definition)}}) {
+    if (!is_given) continue;
+    plan.errors.push_back(fmt::format(
+        "{}: is for pictures, and {}. Fix: leave it out, or measure pictures by themselves.",
+        option, other));
   }
 }
 
@@ -185,7 +186,8 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
                                              : vision::list_heap_files(arguments.pictures),
                            plan.errors, plan.notes);
   read_step(arguments, plan);
-  read_scan_options(arguments, plan);
+  read_scans_and_particles(arguments, plan);
+  check_kinds_of_files(arguments, plan);
   const std::vector<OutputPlace> places = {
       json_place(arguments.json_file, "\"ground_tilt_deg\""),
       csv_place("--csv", arguments.csv_file, "ground_tilt_deg"),
@@ -204,12 +206,14 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
 namespace {
 
 constexpr const char* kMeasureNotes = R"(
-PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; or a
-film of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF; or
-a three-dimensional scan: PLY, OBJ, STL or GLB. A folder stands for all
-pictures, films and scans in it, except films that share a photo's name, as
-phones save both at once, and pictures that share a scan's, which are its
-texture. FILE may be - for standard output.
+PICTURE is a level side view: JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP; a film
+of one by a camera that stands still: MP4, MOV, AVI, MKV, WebM or GIF; or a
+three-dimensional scan: PLY, OBJ, STL or GLB. A folder stands for all pictures,
+films and scans in it, except films that share a photo's name, as phones save
+both at once, and pictures that share a scan's, which are its texture. A file of
+particles, as simulation programs write them, is drawn from nine sides and
+measured in these pictures; its angle is their mean. --json FILE and the like
+may be - for standard output.
 
 Scans: PLY, OBJ, STL and GLB of a heap with the ground around it, as surface or
 as cloud of points, however it is turned. The ground is found, or --ground-plane
@@ -275,12 +279,12 @@ count once, with their mean.
 
 Command measure_command() {
   const auto given = std::make_shared<MeasureArguments>();
-  return {
+  Command command{
       .name = "measure",
       .summary = "Measure heaps in pictures, films and scans",
       .options =
-          {{"pictures", "PICTURE|FOLDER ...", "Pictures, films or scans, or folders",
-            &given->pictures, true},
+          {{"pictures", "PICTURE|FOLDER ...", "Pictures, films, scans, particles", &given->pictures,
+            true},
            {"--method", "auto|paper", "Method of measuring (auto)", &given->method},
            {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
            {"--definition", "NAME", "Which angle it is (flank_20_80)", &given->definition},
@@ -301,7 +305,6 @@ Command measure_command() {
            {"--board-behind", "MM", "How far behind the heap's middle it is (0)",
             &given->scale.board_behind_mm},
            {"--scale", "X1,Y1,X2,Y2,MM", "Two points and their distance", &given->scale.scale},
-           {"--unit", "UNIT", "Unit of scans: um, mm, cm, m or in", &given->unit},
            {"--ground-plane", "X,Y,Z,X,Y,Z,X,Y,Z", "Three points of a scan's ground",
             &given->ground_plane},
            {"--overlay", "FOLDER", "Folder for pictures with the measurement",
@@ -315,9 +318,12 @@ Command measure_command() {
            {"--every", "SECONDS", "Of films: also frames so far apart", &given->every},
            {"--threads", "N", "Pictures in parallel (all cores)", &given->threads},
            {"--definitions", "", "Also show other definitions", &given->shows_definitions}},
-      .notes = kMeasureNotes,
+      .notes = std::string(kMeasureNotes) + kPositionNotes,
       .missing = "no picture given. Fix: repose measure PICTURE, or a folder of pictures.",
       .run = [given] { return run_measure(*given); }};
+  const auto more = position_options(given->positions);
+  command.options.insert(command.options.end(), more.begin(), more.end());
+  return command;
 }
 
 }  // namespace repose::cli

@@ -9,6 +9,7 @@
 #include "base/input_error.h"
 #include "cli/common/command.h"
 #include "cli/common/picture_options.h"
+#include "cli/common/position_options.h"
 #include "vision/camera/sized_heap.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/scan/scanned_heap.h"
@@ -16,7 +17,7 @@
 namespace repose::cli {
 
 /// Its options by the fields that a measurement finds fault with, or advises to give.
-inline constexpr std::array<base::FieldName, 9> kMeasureFields{
+inline constexpr std::array<base::FieldName, 14> kMeasureFields{
     {{"excluded box", "--exclude X,Y,W,H"},
      {"camera pitch", "--pitch-deg"},
      {"heap box", "--heap"},
@@ -25,11 +26,16 @@ inline constexpr std::array<base::FieldName, 9> kMeasureFields{
      {"point to drop", "--drop"},
      {"camera file", "--camera-file"},
      {"unit", "--unit mm"},
-     {"ground plane", "--ground-plane"}}};
+     {"ground plane", "--ground-plane"},
+     kPositionFields[0],
+     kPositionFields[1],
+     kPositionFields[2],
+     kPositionFields[3],
+     kPositionFields[4]}};
 
 /// What `repose measure` is asked to do, as typed.
 struct MeasureArguments {
-  std::vector<std::string> pictures;  ///< and films: files and folders
+  std::vector<std::string> pictures;  ///< and films and particles: files and folders
   std::string method;
   std::string window;
   std::string definition;
@@ -42,8 +48,8 @@ struct MeasureArguments {
   std::string mask_file;
   std::string pitch_deg;
   ScaleArguments scale;
-  std::string unit;
   std::string ground_plane;
+  PositionArguments positions;
   std::string every;
   std::string fps;
   std::string threads;
@@ -59,14 +65,15 @@ struct MeasureArguments {
 
 /// A `repose measure` that can be carried out.
 struct MeasurePlan {
-  std::vector<std::filesystem::path> pictures;  ///< and films
+  std::vector<std::filesystem::path> pictures;  ///< and films, and files of particles
   std::vector<std::filesystem::path> overlays;  ///< one a picture, or none
   bool keeps_overlays = false;                  ///< in memory, for a report
   vision::MeasureOptions options;
   std::optional<double> frames_per_s;  ///< of folders, each a film's frames
   vision::ScaleOptions scale;
   vision::ScanOptions scan;
-  std::optional<double> every_s;  ///< also frames of each film, so far apart
+  calibrate::PositionsOptions positions;  ///< of files of particles
+  std::optional<double> every_s;          ///< also frames of each film, so far apart
   bool saves_hints = false;
   int threads = 1;
 

@@ -194,6 +194,7 @@ void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& s
 
 /// "105.2 ± 3.1": as many digits as the uncertainty has.
 std::string size_text(const vision::Estimate& estimate) {
+  if (estimate.uncertainty == 0) return fmt::format("{:.4g}", estimate.value);
   constexpr double kTwoDigits = 10;
   int digits = 0;
   for (double step = estimate.uncertainty; step > 0 && step < kTwoDigits && digits < 4;
@@ -265,6 +266,17 @@ void add_scan(Table& table, const MeasuredPicture& picture, const vision::Scanne
   if (style.shows_definitions) add_definitions(table, angle);
 }
 
+std::string positions_text(const calibrate::MeasuredPositions& positions) {
+  std::string text = positions.file.text();
+  const auto counted = std::ranges::count_if(
+      positions.views, [](const auto& view) { return view.angle.angle_rad.has_value(); });
+  if (positions.between_views_rad) {
+    text += fmt::format("; mean of {} views, which scatter by {:.2f}° (sd)", counted,
+                        to_degrees(*positions.between_views_rad));
+  }
+  return text;
+}
+
 void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
   if (is_of_series(picture)) return add_frame(table, picture, style);
   const vision::ReposeAngle& angle = picture.angle;
@@ -282,6 +294,7 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
        fmt::format("{:.2f}", angle.confidence), name_of(angle.status)},
       colour);
   if (picture.filmed) table.add_note(kNoteIndent, film_text(*picture.filmed));
+  if (picture.positions) table.add_note(kNoteIndent, positions_text(*picture.positions));
   if (angle.status == vision::MeasureStatus::refused) {
     table.add_note(fmt::format("{}refused: ", kNoteIndent), angle.reason);
     if (picture.proposal) {

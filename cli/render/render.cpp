@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/input_error.h"
 #include "base/units.h"
+#include "calibrate/particles/positions_angle.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
 #include "cli/render/render_options.h"
@@ -191,6 +193,19 @@ void render_turntable(const RenderArguments& arguments, const RenderPlan& plan,
   film.close();
 }
 
+/// Of a state, or of any program's particles: what was made of these is said.
+render::Scene scene_in(const RenderArguments& arguments, const RenderPlan& plan) {
+  calibrate::PositionsFile file = calibrate::read_positions(arguments.state, plan.positions);
+  if (!file.heap.has_unit) {
+    throw base::InputError({.where = arguments.state,
+                            .value = "does not say in which unit its lengths are",
+                            .rule = "cameras and scales are in millimetres",
+                            .fix = "say it: " + base::field("particles' unit") + " mm."});
+  }
+  if (!file.is_state()) print_line(fmt::format("{}: {}", arguments.state, file.text()));
+  return std::move(file.heap.scene);
+}
+
 }  // namespace
 
 ExitCode run_render(const RenderArguments& arguments) {
@@ -201,7 +216,7 @@ ExitCode run_render(const RenderArguments& arguments) {
     render_run_film(arguments, plan);
     return ExitCode::done;
   }
-  const render::Scene scene = render::scene_of(dem::read_state(arguments.state));
+  const render::Scene scene = scene_in(arguments, plan);
   switch (plan.output) {
     case RenderOutput::picture:
       render_picture(arguments, plan, scene);

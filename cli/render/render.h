@@ -3,12 +3,14 @@
 #include <string>
 
 #include "cli/common/output.h"
+#include "cli/common/position_options.h"
 
 namespace repose::cli {
 
 /// What `repose render` is asked to do, as typed.
 struct RenderArguments {
-  std::string state;  ///< .vtp, or .pvd for a film
+  std::string state;  ///< .vtp, or .pvd for a film; or a file of particles
+  PositionArguments positions;
   std::string view;   ///< xz or an azimuth in degrees
   std::string style;  ///< silhouette|photo
   std::string size;   ///< W,H in pixels

@@ -233,6 +233,11 @@ std::string_view mark_of(RenderOutput output) {
 RenderPlan plan_render(const RenderArguments& arguments) {
   RenderPlan plan;
   plan.is_series = arguments.state.ends_with(".pvd");
+  plan.positions = read_position_options(arguments.positions, plan.errors);
+  if (const std::string given = arguments.positions.given(); plan.is_series && !given.empty()) {
+    plan.errors.push_back(
+        fmt::format("{}: is for files of other programs' particles. Fix: leave it out.", given));
+  }
   read_view(arguments.view, plan);
   if (const auto size = read_size({"--size", arguments.size, plan.errors})) {
     plan.size = {.width = (*size)[0], .height = (*size)[1]};
@@ -271,7 +276,7 @@ namespace {
 
 constexpr const char* kRenderNotes = R"(
 STATE is a .vtp file written by repose simulate --out or, for a film, the
-trajectory.pvd of a run.
+trajectory.pvd of a run; or a file of particles as other programs write them.
 
 Styles:
   silhouette  Black grains on white, every pixel one or the other.
@@ -304,34 +309,36 @@ Examples:
 
 Command render_command() {
   const auto given = std::make_shared<RenderArguments>();
-  return {
+  Command command{
       .name = "render",
-      .summary = "Render a simulated state",
-      .options = {{"state", "STATE", "State (.vtp), or trajectory.pvd", &given->state, true},
-                  {"--view", "xz|DEGREES", "Viewing direction (xz)", &given->view},
-                  {"--style", "silhouette|photo", "Appearance (silhouette)", &given->style},
-                  {"--size", "W,H", "Size in pixels (1920,1080)", &given->size},
-                  {"--mm-per-px", "MM", "Scale (such that all grains fit)", &given->mm_per_px},
-                  {"--camera", "KEY=NUMBER,...", "Perspective camera; keys below", &given->camera},
-                  {"--show", "mesh|spheres|both", "How grains are shown (mesh)", &given->show},
-                  {"--seed", "N", "For a photo's textures and noise (1)", &given->seed},
-                  {"--passes", "N", "Photo: more for smoother shadows (24)", &given->passes},
-                  {"--study", "STUDY.toml", "Photo: take the grains' colour from it",
-                   &given->study},
-                  {"--noise", "PART", "Photo: the sensor's, of full light (0.008)", &given->noise},
-                  {"--mask", "FILE.png", "Mask: grains white, all else black", &given->mask_file},
-                  {"--truth", "FILE.json", "Exact geometry of the picture", &given->truth_file},
-                  {"--turntable", "FRAMES", "Film of one turn around the heap", &given->turntable},
-                  {"--fps", "N", "Film of a run: frames per second, in real time", &given->fps},
-                  {"--exposure-ms", "MS", "With --fps, photo: exposure of a frame (0)",
-                   &given->exposure_ms},
-                  {"--hold-s", "S", "With --fps: show its ends so much longer (0)", &given->hold_s},
-                  {"--out", "FILE", "Picture .png .jpg, model .glb, film .mp4 .gif",
-                   &given->out_file}},
-      .notes = kRenderNotes,
+      .summary = "Render a simulated state, or particles",
+      .options =
+          {{"state", "STATE", "State (.vtp), trajectory.pvd, or particles", &given->state, true},
+           {"--view", "xz|DEGREES", "Viewing direction (xz)", &given->view},
+           {"--style", "silhouette|photo", "Appearance (silhouette)", &given->style},
+           {"--size", "W,H", "Size in pixels (1920,1080)", &given->size},
+           {"--mm-per-px", "MM", "Scale (such that all grains fit)", &given->mm_per_px},
+           {"--camera", "KEY=NUMBER,...", "Perspective camera; keys below", &given->camera},
+           {"--show", "mesh|spheres|both", "How grains are shown (mesh)", &given->show},
+           {"--seed", "N", "For a photo's textures and noise (1)", &given->seed},
+           {"--passes", "N", "Photo: more for smoother shadows (24)", &given->passes},
+           {"--study", "STUDY.toml", "Photo: take the grains' colour from it", &given->study},
+           {"--noise", "PART", "Photo: the sensor's, of full light (0.008)", &given->noise},
+           {"--mask", "FILE.png", "Mask: grains white, all else black", &given->mask_file},
+           {"--truth", "FILE.json", "Exact geometry of the picture", &given->truth_file},
+           {"--turntable", "FRAMES", "Film of one turn around the heap", &given->turntable},
+           {"--fps", "N", "Film of a run: frames per second, in real time", &given->fps},
+           {"--exposure-ms", "MS", "With --fps, photo: exposure of a frame (0)",
+            &given->exposure_ms},
+           {"--hold-s", "S", "With --fps: show its ends so much longer (0)", &given->hold_s},
+           {"--out", "FILE", "Picture .png .jpg, model .glb, film .mp4 .gif", &given->out_file}},
+      .notes = std::string(kPositionNotes) + kRenderNotes,
       .missing = "no state given. Fix: repose render STATE.vtp --out heap.png.",
       .fields = kRenderFields,
       .run = [given] { return run_render(*given); }};
+  const auto more = position_options(given->positions);
+  command.options.insert(command.options.end(), more.begin(), more.end());
+  return command;
 }
 
 }  // namespace repose::cli

@@ -16,7 +16,12 @@
 namespace repose::cli {
 
 /// Its options by the fields that the library finds fault with.
-inline constexpr std::array kRenderFields{base::FieldName{"picture size", "--size"}};
+inline constexpr std::array kRenderFields{base::FieldName{"picture size", "--size"},
+                                          kPositionFields[0],
+                                          kPositionFields[1],
+                                          kPositionFields[2],
+                                          kPositionFields[3],
+                                          kPositionFields[4]};
 
 /// A lens on a stand, from --camera.
 struct LensPlan {
@@ -32,6 +37,7 @@ enum class RenderOutput { picture, model, film };
 struct RenderPlan {
   RenderOutput output = RenderOutput::picture;
   bool is_series = false;  ///< the state is a trajectory
+  calibrate::PositionsOptions positions;
   render::OrthographicCamera level;
   std::optional<LensPlan> lens;  ///< instead of `level`
   render::PictureSize size;

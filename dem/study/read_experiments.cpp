@@ -227,21 +227,6 @@ void read_key(Section& section, const ProtocolKey& key) {
   }
 }
 
-/// definition = "whole_flank": by what an angle is measured.
-std::string read_definition(Section& section) {
-  const std::string key = "definition";
-  const auto name = section.text(key, "definition = \"whole_flank\"");
-  if (!name || base::find_definition(*name) != nullptr) return name.value_or("");
-  std::vector<std::string> known;
-  for (const base::AngleDefinition& one : base::kAngleDefinitions) known.emplace_back(one.name);
-  const std::string meant = base::closest_word(*name, known);
-  section.wrong(*section.value(key),
-                fmt::format("{} is one of {}", section.full(key), fmt::join(known, ", ")),
-                meant.empty() ? "that by which the bench's angle was measured"
-                              : fmt::format("did you mean \"{}\"?", meant));
-  return {};
-}
-
 void read_experiment(Section section, const ExperimentEntry& entry, const NamedFiles& files,
                      Study& study) {
   if (!section.exists()) return;
@@ -274,6 +259,20 @@ void read_experiments(Section experiments, const NamedFiles& files, Study& study
     read_experiment(experiments.section(std::string(entry.name)), entry, files, study);
   }
   experiments.reject_unknown_keys();
+}
+
+std::string read_definition(Section& section) {
+  const std::string key = "definition";
+  const auto name = section.text(key, "definition = \"whole_flank\"");
+  if (!name || base::find_definition(*name) != nullptr) return name.value_or("");
+  std::vector<std::string> known;
+  for (const base::AngleDefinition& one : base::kAngleDefinitions) known.emplace_back(one.name);
+  const std::string meant = base::closest_word(*name, known);
+  section.wrong(*section.value(key),
+                fmt::format("{} is one of {}", section.full(key), fmt::join(known, ", ")),
+                meant.empty() ? "that by which the bench's angle was measured"
+                              : fmt::format("did you mean \"{}\"?", meant));
+  return {};
 }
 
 }  // namespace repose::dem

@@ -29,4 +29,7 @@ struct BoundsRules {
 void read_bounds(Section bounds, const ConfigValue& whole, const BoundsRules& rules,
                  const std::string& example, bool takes_value, Coefficient& coefficient);
 
+/// definition = "whole_flank": by what an angle is measured; empty: not said.
+std::string read_definition(Section& section);
+
 }  // namespace repose::dem

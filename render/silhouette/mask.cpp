@@ -164,11 +164,20 @@ class Picked {
     }
   }
 
-  void draw(const gl::Functions& gl) const {
+  /// As much as should be in memory at a time: of a million grains it would be gigabytes.
+  bool is_full() const {
+    constexpr std::size_t kMostFloats = std::size_t{1} << 24;
+    return vertices_.size() > kMostFloats;
+  }
+
+  /// Draws what was added, and is then empty.
+  void draw(const gl::Functions& gl) {
     if (corners_.empty()) return;
     std::vector<int> parts = kVertexParts;
     parts.insert(parts.end(), kInstanceParts.begin(), kInstanceParts.end());
     gl::Shape(gl, vertices_, corners_, parts).draw();
+    vertices_.clear();
+    corners_.clear();
   }
 
  private:
@@ -231,13 +240,14 @@ class Picked {
 void draw_uncovered(const gl::Functions& gl, const View& view, const Stage& stage,
                     const CoveredArea& covered) {
   Picked picked(view, stage, covered);
+  set_culling(gl, true);
   for (const Batch& batch : stage.grains) {
     const std::span<const float> instances = batch.instances;
     for (std::size_t at = 0; at < instances.size(); at += kInstanceFloats) {
       picked.add(*batch.surface, instances.subspan(at, kInstanceFloats));
+      if (picked.is_full()) picked.draw(gl);
     }
   }
-  set_culling(gl, true);
   picked.draw(gl);
 }
 

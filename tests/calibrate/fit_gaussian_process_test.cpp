@@ -72,6 +72,30 @@ TEST(GaussianProcess, LeavingOneOutIsTheSameAsNotHavingIt) {
 }
 
 /// By sufficiency: of normal noise, mean, number and sum of squares tell all that the runs do.
+/// A value of which nearly nothing is known changes nearly nothing; taken for sure it does.
+TEST(GaussianProcess, UncertainValuesCountLess) {
+  const Data data = noisy(30, 0);
+  Data with_wrong = data;
+  const Point place = {.41, .52, .5};
+  const GaussianProcess without(data.places, data.values, true, {}, 1);
+  with_wrong.places.push_back(place);
+  with_wrong.values.push_back(without.at(place, false).mean + 1.5);
+  MeansOfRuns told;
+  told.own_variances.assign(with_wrong.values.size(), 0);
+  told.own_variances.back() = 1e4;
+  const GaussianProcess unsure(with_wrong.places, with_wrong.values, true, {}, 1, told);
+  const GaussianProcess sure(with_wrong.places, with_wrong.values, true, {}, 1);
+  const double expected = without.at(place, false).mean;
+  EXPECT_NEAR(unsure.at(place, false).mean, expected, .02);
+  EXPECT_GT(std::abs(sure.at(place, false).mean - expected), .1);
+  EXPECT_GT(unsure.leave_one_out().back().sd, 50);
+  // The same for all: the noise that is sought is what is left.
+  const Data scattered = noisy(60, .2);
+  told.own_variances.assign(scattered.values.size(), .04);
+  const GaussianProcess rest(scattered.places, scattered.values, true, {}, 2, told);
+  EXPECT_LT(rest.noise_sd(), .1);
+}
+
 TEST(GaussianProcess, LearnsFromMeansAndTheirScatterWhatTheRunsThemselvesTell) {
   constexpr std::size_t kPlaces = 30;
   constexpr int kRepeats = 3;

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "base/units.h"
 #include "calibrate/fit/surrogate.h"
 #include "calibrate/report/study_report.h"
 #include "calibrate/runs/table_runs.h"
@@ -20,7 +21,10 @@
 #include "calibrate/study/study_record.h"
 #include "dem/study/study.h"
 #include "tests/calibrate/made_up_table.h"
+#include "tests/support/heap_picture.h"
+#include "tests/support/particle_files.h"
 #include "tests/support/temporary_folder.h"
+#include "vision/picture/picture.h"
 
 namespace repose::calibrate {
 namespace {
@@ -106,6 +110,59 @@ TEST_F(TableStudyTest, ReadsASheetOfNumbers) {
       study("[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { readings = \"y.csv\" }\n");
   EXPECT_EQ(read.measured[0].n, 3);
   EXPECT_NEAR(read.measured[0].mean, 3, 1e-12);
+}
+
+/// Places and pictures in place of an angle: measured, each with its own uncertainty.
+TEST_F(TableRunsTest, PicturesAndParticlesAreMeasured) {
+  constexpr double kHeight_m = .024, kRadius_m = .002;
+  for (const int angle : {20, 28}) {
+    folder_.write(fmt::format("heap_{}.dump", angle),
+                  testing::dump_step(1, testing::packed_cone(angle, kHeight_m, kRadius_m)));
+  }
+  testing::HeapScene scene;
+  scene.width = 600;
+  scene.height = 400;
+  scene.form.left_rad = scene.form.right_rad = 24 * kDegree;
+  vision::write_picture(folder_.path() / "heap.png", testing::draw_heap(scene).picture);
+  vision::Picture blank{.width = 300, .height = 200, .bgr = {}};
+  blank.bgr.assign(std::size_t{3} * 300 * 200, 255);
+  vision::write_picture(folder_.path() / "blank.png", blank);
+  const TableStudy read = study(
+      "[parameter]\nx = { min = 0, max = 1 }\n[measured]\n"
+      "aor = { mean = 24, sd = 1, n = 4, unit = \"deg\" }\n");
+  const TableRuns found = runs(read,
+                               "x,aor,aor_sd,n\n0.1,heap_20.dump,,3\n0.5,heap.png,,\n"
+                               "0.9,heap_28.dump,,\n0.7,blank.png,,\n0.3,21.5,0.4,3\n");
+  ASSERT_EQ(found.runs.size(), 4U);
+  EXPECT_EQ(found.without_reading, 1);
+  const std::vector<double> expected = {20, 24, 28};
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_NEAR(found.runs[k].readings.at("value"), expected[k], 1.5) << k;
+    EXPECT_GT(found.runs[k].reading_sd.at("value"), .05) << k;
+    EXPECT_LT(found.runs[k].reading_sd.at("value"), 2) << k;
+    EXPECT_EQ(found.runs[k].repeats, 1) << k;
+  }
+  EXPECT_THAT(found.runs[3].reading_sd, IsEmpty());
+  EXPECT_EQ(found.runs[3].repeats, 3);
+  EXPECT_THAT(found.notes, Contains(AllOf(HasSubstr("3 of 4 pictures"), HasSubstr("flank_20_80"))));
+  EXPECT_THAT(found.notes,
+              Contains(HasSubstr("refused, and without a reading: line 5, blank.png")));
+  EXPECT_THAT(found.notes, Contains(HasSubstr("definition")));
+  EXPECT_EQ(found.texts.size(), 5U);  // the table, and a fingerprint of each file
+}
+
+TEST_F(TableRunsTest, PicturesThatCannotBeReadAreFaults) {
+  const std::string line = "[parameter]\nx = { min = 0, max = 1 }\n[measured]\n";
+  const TableStudy angle = study(line + "y = { mean = 3, sd = 1, n = 4, unit = \"deg\" }\n");
+  EXPECT_THAT(fault_of_runs(angle, "x,y\n0.1,12\n0.2,missing.png\n0.3,lost.dump\n"),
+              AllOf(HasSubstr("runs.csv:3"), HasSubstr("missing.png"), HasSubstr("runs.csv:4"),
+                    HasSubstr("lost.dump")));
+  const TableStudy other = study(kLineStudy);
+  EXPECT_THAT(fault_of_runs(other, "x,y\n0.1,12\n0.2,heap.png\n"),
+              AllOf(HasSubstr("runs.csv:3"), HasSubstr("unit = \"deg\"")));
+  EXPECT_THAT(fault_of_study(line + "y = { mean = 3, sd = 1, n = 4, unit = \"deg\", up = \"w\", "
+                                    "definition = \"flank\" }\n"),
+              AllOf(HasSubstr("one of x, y, z"), HasSubstr("definition is one of")));
 }
 
 TEST_F(TableStudyTest, IsNotMixedWithOneThatIsSimulated) {

@@ -163,5 +163,20 @@ TEST_F(NextRunsTest, MakeATableToBeFilledInAndRead) {
               HasSubstr("sliding,rolling,restitution,angle,angle_sd,density,n,reason\n"));
 }
 
+/// Rows that can be put below those of the table as it is.
+TEST_F(NextRunsTest, AreWrittenAsTheTableIs) {
+  const TableStudy of =
+      study("[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 3, sd = 1, n = 4 }\n");
+  const std::string table = "x;y;reason\n0,25;3,5;\n0,75;2,5;\n";
+  const TableRuns there = runs(of, table);
+  const NextRuns next = next_runs(of, there, 3);
+  ASSERT_EQ(next.runs.size(), 3U);
+  const std::string text = next_runs_csv(of, there, next.runs);
+  EXPECT_THAT(text, HasSubstr("x;y;reason\n0,"));
+  const TableRuns together = runs(of, table + text.substr(text.find('\n') + 1));
+  ASSERT_EQ(together.places.size(), 5U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(together.places[k + 2], next.runs[k].values);
+}
+
 }  // namespace
 }  // namespace repose::calibrate

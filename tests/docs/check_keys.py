@@ -12,12 +12,12 @@ import workplace
 
 # Objects whose keys are names of factors, coefficients, observables or experiments.
 OPEN = {"effects", "interval_widths", "determined", "levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated", "checked_at",
-        "stiffness_factor", "shortest_timestep_s", "definitions_deg", "simulated_deg", "repeat_sd"}
+        "stiffness_factor", "shortest_timestep_s", "definitions_deg", "simulated_deg", "repeat_sd", "reading_sd"}
 # Commands by the heading in json.md under which their output is described. (repose verify is left out:
 # it takes long.)
 OUTPUTS = {
     "measure": ["measure photos --json - --threads 2", "measure heap.avi --every 0.5 --json -",
-                "measure heap.ply --unit mm --json -"],
+                "measure heap.ply --unit mm --json -", "measure particles.csv --json -"],
     "measure#summary": ["measure photos --summary -"],
     "compare": ["compare photo.jpg render.png --json -"],
     "compare of sets": ["compare photos render.png --json -"],

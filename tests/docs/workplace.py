@@ -3,6 +3,7 @@
 import math
 import os
 import pathlib
+import random
 import re
 import shutil
 import struct
@@ -224,6 +225,41 @@ def avi(frame, frames_per_s, width, height, frames):
     return chunk(b"RIFF", b"AVI " + header + film)
 
 
+def packed_cone(angle_deg, height=30.0, radius=2.0):
+    """Spheres in close-packed, wavy layers in a cone on a plate, each a little off its place: x, y, z in mm."""
+    chance = random.Random(7)
+    spheres, layer, z = [], 0, radius
+    while z < height:
+        reach = (height - z + radius) / math.tan(math.radians(angle_deg)) - radius
+        rows = int(reach / (math.sqrt(3) * radius)) + 1
+        for j in range(-rows, rows + 1):
+            for i in range(-2 * rows, 2 * rows + 1):
+                x = 2 * radius * (i + 0.5 * (j % 2)) + layer % 2 * radius
+                y = math.sqrt(3) * radius * (j + layer % 2 / 3)
+                if math.hypot(x, y) <= reach:
+                    wave = 2 * min(1, (z - radius) / 20) * math.sin(x / 9 + 1) * math.cos(y / 8)
+                    spheres.append((x + chance.uniform(-0.1, 0.1), y + chance.uniform(-0.1, 0.1), z + wave))
+        layer, z = layer + 1, z + 2 * radius * math.sqrt(2 / 3)
+    return spheres
+
+
+def particle_csv(spheres, radius=2.0):
+    rows = [f"{x:.4f},{y:.4f},{z:.4f},{radius}" for x, y, z in spheres]
+    return "\n".join(["x [mm],y [mm],z [mm],radius [mm]", *rows, ""])
+
+
+def particle_vtu(spheres, radius=0.002):
+    places = " ".join(f"{x / 1e3:.7f} {y / 1e3:.7f} {z / 1e3:.7f}" for x, y, z in spheres)
+
+    def array(name, parts, text):
+        return f'<DataArray type="Float32" Name="{name}" NumberOfComponents="{parts}" format="ascii">{text}</DataArray>'
+
+    return (f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">'
+            f'<UnstructuredGrid><Piece NumberOfPoints="{len(spheres)}" NumberOfCells="0"><PointData>'
+            + array("radius", 1, " ".join([str(radius)] * len(spheres))) + "</PointData><Points>"
+            + array("Points", 3, places) + "</Points></Piece></UnstructuredGrid></VTKFile>\n")
+
+
 # What a bench may have measured, a column each; the protocol's are those of a new study.
 BENCH = {"drop_mm": (500, 500, 500), "rebound_mm": (150, 162, 156), "angle_deg": (17.4, 18.1, 17.9),
          "incline_deg": (20, 20, 20), "released_mm": (150, 150, 150), "stopped_mm": (410, 440, 425)}
@@ -264,6 +300,8 @@ def prepare(folder, root, repose):
     (folder / "nut.stl").write_text(stl_of(ellipsoid((11.2, 9.1, 8.7))), encoding="utf-8")
     (folder / "render.png").write_bytes(silhouette_png())
     (folder / "heap.ply").write_bytes(cone_ply())
+    (folder / "particles.csv").write_text(particle_csv(packed_cone(25)), encoding="utf-8")
+    (folder / "heap.vtu").write_text(particle_vtu(packed_cone(25)), encoding="utf-8")
     (folder / "heap.avi").write_bytes(grown_heap_avi())
     (folder / "drop_01.avi").write_bytes(dropped_grain_avi(0.6))
     (folder / "drop_02.avi").write_bytes(dropped_grain_avi(0.5))
@@ -273,10 +311,14 @@ def prepare(folder, root, repose):
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
     (folder / "two_days.csv").write_text(TWO_DAYS, encoding="utf-8")
     engines = documents.Document(root / "docs/engines.md", root)
-    for language, names in (("toml", ["grain.toml"]), ("csv", ["grain_runs.csv", "grain_points.csv"])):
+    for language, names in (("toml", ["grain.toml", "seen.toml"]), ("csv", ["grain_runs.csv", "seen_runs.csv", "grain_points.csv"])):
         blocks = [block for block in engines.blocks if block.language == language]
         for name, block in zip(names, blocks):
             (folder / name).write_text("\n".join([*(line.text for line in block.lines), ""]), encoding="utf-8")
+    (folder / "heaps").mkdir()
+    for run in range(1, 7):
+        spheres = packed_cone(12 + 4 * run, height=24)
+        (folder / f"heaps/run_{run}.csv").write_text(particle_csv(spheres), encoding="utf-8")
     for name, out in (("study.toml", "hazelnut"), ("my_study.toml", "my_study_calibration")):
         subprocess.run([repose, "calibrate", name, "--out", out], cwd=folder, check=True,
                        stdout=subprocess.DEVNULL)

@@ -22,14 +22,15 @@ void read_picture(Bytes bytes);
 void read_hints(Bytes bytes);
 void read_camera(Bytes bytes);
 void read_heap_scan(Bytes bytes);  ///< the first byte says which format
-void read_names(Bytes bytes);      ///< into the decks for other programs
+void read_particles(Bytes bytes);
+void read_names(Bytes bytes);  ///< into the decks for other programs
 
 struct Reader {
   std::string_view name;  ///< also of its folder in the corpus
   void (*read)(Bytes bytes);
 };
 
-inline constexpr std::array<Reader, 12> kReaders = {{{"study", read_study},
+inline constexpr std::array<Reader, 13> kReaders = {{{"study", read_study},
                                                      {"table", read_table},
                                                      {"clump", read_clump},
                                                      {"scan", read_scan},
@@ -40,6 +41,7 @@ inline constexpr std::array<Reader, 12> kReaders = {{{"study", read_study},
                                                      {"hints", read_hints},
                                                      {"camera", read_camera},
                                                      {"heap_scan", read_heap_scan},
+                                                     {"particles", read_particles},
                                                      {"names", read_names}}};
 
 }  // namespace repose::fuzz

@@ -198,6 +198,10 @@ void check_single_column(const Table& table) {
 
 /// "1.012", "12.345.678": a number, or perhaps a thousand times as much.
 bool may_have_thousands(std::string_view cell, char mark) {
+  // Most cells end otherwise, and a pattern takes long in a table of a million.
+  constexpr std::size_t kEnd = 4;  // ".012"
+  const std::size_t last = cell.rfind(mark);
+  if (last == cell.npos || last + kEnd != cell.size()) return false;
   static const std::regex kPoints("[+-]?[1-9][0-9]{0,2}(\\.[0-9]{3})+");
   static const std::regex kCommas("[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+");
   return std::regex_match(cell.begin(), cell.end(), mark == '.' ? kPoints : kCommas);
@@ -321,7 +325,8 @@ Table parse_table(const std::string& name, std::string_view text, NoRows no_rows
       .name = name,
       .columns = std::move(rows.front().cells),
       .rows = {std::make_move_iterator(rows.begin() + 1), std::make_move_iterator(rows.end())},
-      .has_decimal_comma = delimiter != ','};
+      .has_decimal_comma = delimiter != ',',
+      .delimiter = delimiter == kNoDelimiter ? ';' : delimiter};
   base::Faults errors;
   check_header(table, rows.front().line, errors);
   errors.require(no_rows == NoRows::allowed || !table.rows.empty(),

@@ -28,6 +28,7 @@ struct Table {
   std::vector<TableRow> rows;
   /// Cells are not parted by commas, so numbers are likely to have decimal commas.
   bool has_decimal_comma = false;
+  char delimiter = ',';  ///< that parts the cells; of a table of one column, a semicolon
 
   std::optional<std::size_t> column(std::string_view wanted) const;
 };
