@@ -210,6 +210,7 @@ void judge(Views views, const StandingHeap& standing, vision::ReposeAngle& heap)
 
 vision::ReposeAngle heap_of(Views views, const StandingHeap& standing) {
   vision::ReposeAngle heap;
+  heap.definition = views.front().angle.definition;
   heap.window = views.front().angle.window;
   heap.method = views.front().angle.method;
   heap.segmentation = views.front().angle.segmentation;

@@ -16,7 +16,6 @@
 #include "base/distributions.h"
 #include "base/fingerprint.h"
 #include "base/units.h"
-#include "calibrate/experiment/heap_angle.h"
 #include "calibrate/particles/positions_angle.h"
 #include "calibrate/runs/table_columns.h"
 #include "vision/files/file_list.h"
@@ -52,12 +51,16 @@ bool names_file(const std::string& cell, const fs::path& folder) {
 
 void measure(Cell& cell, const fs::path& folder, const PicturedReading& how) {
   const fs::path file = folder / cell.name;
+  vision::PictureSettings told;
+  told.measuring.definition = how.definition;
   try {
     cell.fingerprint = base::fingerprint({base::read_whole_file(file)});
-    cell.angle =
-        is_picture(file)
-            ? vision::measure_heap_file(file).heap.angle
-            : measure_positions(file, {.reading = {}, .placement = how.placement}, {}).angle;
+    if (is_picture(file)) {
+      cell.angle = vision::measure_heap_file(file, told).heap.angle;
+    } else {
+      const PositionsOptions options{.reading = {}, .placement = how.placement};
+      cell.angle = measure_positions(file, options, told.measuring).angle;
+    }
   } catch (const base::InputError& error) {
     cell.fault = error.what();
   }
@@ -116,12 +119,8 @@ class Reading {
 
   /// The reading and its standard uncertainty; none: there is no angle.
   std::optional<std::pair<double, double>> take(const Cell& cell) {
-    const auto angle_rad = calibrate::angle_by(picture_angle_of(cell.angle), definition_);
-    if (!angle_rad || !cell.angle.uncertainty_rad) {
-      const std::string why = cell.angle.status == vision::MeasureStatus::refused
-                                  ? cell.angle.reason
-                                  : fmt::format("no angle by {}", definition_);
-      refused_.push_back(named(table_, cell, why));
+    if (!cell.angle.angle_rad || !cell.angle.uncertainty_rad) {
+      refused_.push_back(named(table_, cell, cell.angle.reason));
       return std::nullopt;
     }
     if (cell.angle.status == vision::MeasureStatus::flagged) {
@@ -131,7 +130,7 @@ class Reading {
     }
     const double sd_deg = to_degrees(*cell.angle.uncertainty_rad) / base::kNormal95;
     sds_.push_back(sd_deg);
-    return std::pair(to_degrees(*angle_rad), sd_deg);
+    return std::pair(to_degrees(*cell.angle.angle_rad), sd_deg);
   }
 
   void add_notes(std::vector<std::string>& notes) const {

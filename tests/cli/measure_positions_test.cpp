@@ -1,4 +1,5 @@
 // Files of particles in `repose measure` and `repose render`.
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -41,6 +42,7 @@ TEST_F(MeasurePositions, GivesTheKeysOfAPictureAndWhatTheViewsGave) {
   EXPECT_NEAR(table["angle_deg"].get<double>(), 27, 1.5);
   EXPECT_NEAR(dump["angle_deg"].get<double>(), table["angle_deg"].get<double>(), .2);
   EXPECT_EQ(table["scale"], "positions");
+  EXPECT_EQ(table["definition"], "flank_20_80");
   EXPECT_NEAR(table["height_mm"].get<double>(), 30, 3);
   EXPECT_TRUE(dump["height_mm"].is_null());
   EXPECT_EQ(table["positions"]["unit"], "mm");
@@ -51,6 +53,20 @@ TEST_F(MeasurePositions, GivesTheKeysOfAPictureAndWhatTheViewsGave) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "seen" / "heap.png"));
   const Finished again = run({"measure", "heap.csv", "dump.9000", "--json", "-", "--threads", "1"});
   EXPECT_EQ(again.out, text("out.json"));
+}
+
+TEST_F(MeasurePositions, TheirAngleIsByTheDefinitionThatIsNamed) {
+  const Finished usual = run({"measure", "heap.csv", "--json", "-"});
+  const Finished named = run({"measure", "heap.csv", "--definition", "whole-flank", "--json", "-"});
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  const json heap = json::parse(named.out).at(0);
+  EXPECT_EQ(heap["definition"], "whole_flank");
+  EXPECT_EQ(heap["window"], json({0., 1.}));
+  const json others = json::parse(usual.out).at(0)["definitions"];
+  const auto same = std::ranges::find_if(
+      others, [](const json& other) { return other["name"] == "whole_flank"; });
+  ASSERT_NE(same, others.end());
+  EXPECT_EQ(heap["angle_deg"], (*same)["angle_deg"]);
 }
 
 TEST_F(MeasurePositions, OptionsOfPicturesAndOfParticlesAreKeptApart) {

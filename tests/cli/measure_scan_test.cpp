@@ -38,6 +38,7 @@ TEST_F(MeasureScan, GivesTheKeysOfAPictureAndItsOwn) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json heap = json::parse(result.out).at(0);
   EXPECT_EQ(heap["status"], "ok");
+  EXPECT_EQ(heap["definition"], "flank_20_80");
   EXPECT_NEAR(heap["angle_deg"].get<double>(), 27, heap["uncertainty_deg"].get<double>());
   EXPECT_TRUE(heap["left"].is_null() && heap["confidence"].is_null());
   EXPECT_NEAR(heap["volume_ml"].get<double>(), cone_volume(27, 80) / 1000,
