@@ -89,7 +89,8 @@ OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions
             "systematic_uncertainty", "assumed_inputs", "with_assumed", "inputs_taken_as_exact",
             "degrees_of_freedom", "model_error_scale", "model_uncertainty", "model_sd",
             "assumed_scatter", "bench_correlation", "bounds_are", "useful_half_width", "systematic",
-            "tolerance_from", "readings_to_decide", "possible", "hour", "checked_at", "repeats", "repeat_sd"}
+            "tolerance_from", "readings_to_decide", "possible", "hour", "checked_at", "repeats", "repeat_sd",
+            "reading_sd"}
 
 
 def undescribed(schema, place="schema"):
