@@ -97,9 +97,13 @@ void count_uncertainty_of(std::span<const SetPicture> pictures, const Heaps& hea
     const double between2 = std::pow(*set.heaps_deg->sd, 2) - within2 * inverse / all;
     set.between_sd_deg = std::sqrt(std::max(0.0, between2));
   }
-  for (HeapOfSet& heap : set.heaps) {
-    const double deviation = std::sqrt(within2 / heap.pictures);
-    heap.within_deg = base::student_t_quantile(.975, freedom) * deviation + set.camera_deg;
+  for (std::size_t k = 0; k < heaps.size(); ++k) {
+    HeapOfSet& heap = set.heaps[k];
+    const double alone2 = mean_over(
+        heaps[k], [&](std::size_t i) { return std::pow(pictures[i].own_deg, 2) / heap.pictures; });
+    const double seen =
+        base::student_t_quantile(.975, freedom) * std::sqrt(within2 / heap.pictures);
+    heap.within_deg = std::max(seen, std::sqrt(alone2)) + set.camera_deg;
   }
 }
 

@@ -84,7 +84,7 @@ struct PictureSet {
 /// to be alike for all heaps and pooled, after JCGM 100:2008 (GUM), H.5.2:
 ///
 ///     w^2 = sum (x - x_k)^2 / f          f = sum (m_k - 1)
-///     a heap's half-width = t(.975; f) w / sqrt(m_k) + camera
+///     a heap's half-width = t(.975; f) w / sqrt(m_k) + camera, no less than by its pictures' own
 ///     b^2 = s^2 - w^2 mean(1 / m_k)      at least 0
 ///
 ///     x_k, m_k  mean and number of a heap's pictures      s  standard deviation of the x_k

@@ -203,7 +203,16 @@ void judge(Views views, const StandingHeap& standing, vision::ReposeAngle& heap)
                          "column of radii may hold diameters.",
                          standing.deep_percent)});
   }
-  const bool is_flagged = 2 * flagged >= count - refused || standing.in_the_air > 0 ||
+  constexpr double kWide_rad = 5 * kDegree;
+  const bool is_wide = heap.uncertainty_rad.value_or(0) > kWide_rad;
+  if (is_wide) {
+    heap.warnings.push_back(
+        {.code = "wide_interval",
+         .message = fmt::format("The angle is uncertain by ±{:.1f} degrees: look at the views; a "
+                                "heap that is not round in plan has no single angle.",
+                                to_degrees(*heap.uncertainty_rad))});
+  }
+  const bool is_flagged = is_wide || 2 * flagged >= count - refused || standing.in_the_air > 0 ||
                           standing.deep_percent > kUsual_percent;
   heap.status = is_flagged ? vision::MeasureStatus::flagged : vision::MeasureStatus::ok;
 }

@@ -1,6 +1,7 @@
 #include "calibrate/runs/pictured_cells.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -15,6 +16,7 @@
 #include "base/atomic_file.h"
 #include "base/distributions.h"
 #include "base/fingerprint.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/particles/positions_angle.h"
 #include "calibrate/runs/table_columns.h"
@@ -62,7 +64,10 @@ void measure(Cell& cell, const fs::path& folder, const PicturedReading& how) {
       cell.angle = measure_positions(file, options, told.measuring).angle;
     }
   } catch (const base::InputError& error) {
-    cell.fault = error.what();
+    // As the study names them.
+    static constexpr std::array<base::FieldName, 2> kKeys{
+        {{"direction that is up", "key up"}, {"plate's height", "key plate_height"}}};
+    cell.fault = base::text_of(error.faults(), kKeys);
   }
 }
 

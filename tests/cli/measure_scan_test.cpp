@@ -78,9 +78,9 @@ TEST_F(MeasureScan, OptionsThatSayNothingAreRefused) {
   const Finished of_scan = run({"heap.ply", "--heap", "1,2,3,4", "--method", "paper", "--unit",
                                 "miles", "--ground-plane", "1,2,3"});
   EXPECT_EQ(of_scan.exit_code, 2);
-  EXPECT_THAT(of_scan.err,
-              AllOf(HasSubstr("--heap: is for pictures, and heap.ply is a scan"), HasSubstr("--method paper"),
-                    HasSubstr("--unit miles"), HasSubstr("--ground-plane 1,2,3")));
+  EXPECT_THAT(of_scan.err, AllOf(HasSubstr("--heap: is for pictures, and heap.ply is a scan"),
+                                 HasSubstr("--method paper"), HasSubstr("--unit miles"),
+                                 HasSubstr("--ground-plane 1,2,3")));
   const Finished of_picture = run({"heap.png", "--unit", "mm"});
   EXPECT_EQ(of_picture.exit_code, 2);
   EXPECT_THAT(of_picture.err, HasSubstr("--unit: is for scans and files of particles"));

@@ -234,5 +234,62 @@ TEST(ScannedHeap, WindowsAndUnitsThatCannotBeMeantAreRefused) {
   EXPECT_THAT(error_of([] { measured_scan({}, {.unit_mm = 0}); }), HasSubstr("unit"));
 }
 
+/// Points a millimetre and more apart over a square.
+template <class Surface>
+ScanPoints sampled(double half_mm, double step_mm, const Surface& surface) {
+  ScanPoints points;
+  for (double x = -half_mm; x <= half_mm; x += step_mm) {
+    for (double y = -half_mm; y <= half_mm; y += step_mm) points.push_back({x, y, surface(x, y)});
+  }
+  return points;
+}
+
+double cone_at(double x, double y) {
+  return std::max(0., kConeHeight - std::hypot(x, y) * std::tan(kConeAngle_deg * kDegree));
+}
+
+TEST(ScannedHeap, AScanThatIsBentAsAWholeHasWiderIntervals) {
+  for (const double bow : {-5e-5, -2e-5, 2e-5, 5e-5}) {  // up to 3.4 mm where the square ends
+    const ScannedHeap heap = measured_scan(
+        sampled(260, 2, [&](double x, double y) { return cone_at(x, y) + bow * (x * x + y * y); }));
+    ASSERT_TRUE(heap.volume_ml.has_value()) << bow << ": " << heap.size_reason;
+    EXPECT_LT(std::abs(heap.volume_ml->value - kConeVolume_ml), heap.volume_ml->uncertainty) << bow;
+    EXPECT_LT(std::abs(to_degrees(*heap.angle.angle_rad) - kConeAngle_deg),
+              to_degrees(*heap.angle.uncertainty_rad))
+        << bow;
+  }
+}
+
+TEST(ScannedHeap, ADiscAsWideAsTheHeapIsFlaggedAsAStep) {
+  const auto on_disc = [](double height_mm) {
+    return measured_scan(sampled(260, 2, [&](double x, double y) {
+      return cone_at(x, y) + (std::hypot(x, y) < kConeFoot ? height_mm : 0);
+    }));
+  };
+  EXPECT_THAT(on_disc(25).angle.warnings, scan_warns("step_at_foot"));
+  EXPECT_EQ(on_disc(25).angle.status, MeasureStatus::flagged);
+  EXPECT_THAT(on_disc(0).angle.warnings, ::testing::Not(scan_warns("step_at_foot")));
+}
+
+// The floor has more points than the table and is taken for the ground: the highest part of that
+// body is a plateau.
+TEST(ScannedHeap, AHeapOnASmallTableFarAboveTheFloorIsRefused) {
+  constexpr double kFoot = 60, kTable = 85, kFloor = -300;
+  const ScannedHeap heap = measured_scan(sampled(200, 1, [](double x, double y) {
+    const double cone = std::max(0., (kFoot - std::hypot(x, y)) * std::tan(28 * kDegree));
+    return std::max(std::abs(x), std::abs(y)) < kTable ? cone : kFloor;
+  }));
+  EXPECT_EQ(heap.angle.status, MeasureStatus::refused);
+  EXPECT_THAT(heap.angle.reason, HasSubstr("Fix: "));
+}
+
+TEST(ScannedHeap, AUnitAgainstTheFilesOwnIsRefused) {
+  Scan scan;
+  scan.points = drawn_scan(cone_draft());
+  scan.unit_mm = 1000;
+  EXPECT_THAT(error_of([&] { measure_scan(scan, {.unit_mm = 1}); }),
+              HasSubstr("the file says that one unit is 1000 mm"));
+}
+
 }  // namespace
 }  // namespace repose::vision

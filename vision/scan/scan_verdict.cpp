@@ -135,6 +135,25 @@ void warn_of_what_was_seen(const Slices& slices, int others, ScannedHeap& heap) 
   }
 }
 
+/// A plate, a disc or a dish that is no wider than the heap upon it looks like a step at its foot.
+void warn_of_step(const Slices& slices, ScannedHeap& heap) {
+  constexpr double kShort = 0.85;  // of the run to where the flank's line meets the ground
+  double reach = 0, run = 0;
+  for (const Slice& slice : slices.all) {
+    const LineFit& line = slice.fit.shown;
+    if (!slice.azimuth.angle_rad || line.slope >= 0) continue;
+    reach += slice.reach;
+    run += -line.intercept / line.slope;
+  }
+  if (!(reach < kShort * run)) return;
+  add_flag(
+      heap, "step_at_foot",
+      fmt::format("The heap ends {:.0f} % short of where its flanks' line meets the ground, as "
+                  "on a plate no wider than itself, which then counts in height and volume: "
+                  "give three points of what it stands on as {}.",
+                  100 * (1 - reach / run), base::field("ground plane")));
+}
+
 void warn_of_definitions(double bend_rad, ScannedHeap& heap) {
   const double angle = *heap.angle.angle_rad, interval = *heap.angle.uncertainty_rad;
   double low = angle, high = angle;
@@ -183,6 +202,7 @@ std::optional<std::string> reason_against(const Slices& slices, const ScannedHea
 
 void warn_of_scan(const Slices& slices, int others, ScannedHeap& heap) {
   warn_of_what_was_seen(slices, others, heap);
+  warn_of_step(slices, heap);
   const double bend = slices.mean_of([](const FlankFit& fit) { return fit.bend_rad; });
   const double apron = slices.mean_of([](const FlankFit& fit) { return fit.apron_rad; });
   constexpr double kSeenApron_rad = 0.1 * kDegree;

@@ -12,6 +12,7 @@
 
 #include "base/angle_definition.h"
 #include "base/distributions.h"
+#include "base/input_error.h"
 #include "base/units.h"
 #include "vision/measure/line_fit.h"
 #include "vision/scan/ground_plane.h"
@@ -45,6 +46,8 @@ struct Survey {
   double threshold = 0;
   double cut = 0;              ///< of the base's rim
   std::vector<double> levels;  ///< of the sectors around it in which the ground is seen
+  double bow = 0;   ///< c of the ground's height c r^2 around the heap's axis, by its fit
+  double sunk = 0;  ///< by how much such a ground lies elsewhere below the heap
 
   /// Standard deviation of the sectors' levels.
   double level_sd() const {
@@ -61,6 +64,13 @@ struct Survey {
     return base::student_t_quantile(.975, n - 1) * std::numbers::sqrt2 * level_sd() / std::sqrt(n);
   }
 };
+
+/// Square of the radius of the circle as large as the base.
+double base_radius2(const Survey& survey) {
+  const auto cells = static_cast<double>(
+      std::count(survey.heap.base.begin(), survey.heap.base.end(), std::uint8_t{1}));
+  return cells * survey.heap.map.plan.cell * survey.heap.map.plan.cell / std::numbers::pi;
+}
 
 MapPlan plan_around(const FoundHeap& found) {
   const double sparse = std::sqrt(kPointsPerCell * found.area / std::max(1.0, found.points));
@@ -113,6 +123,31 @@ bool draw_map(const std::vector<Eigen::Vector3d>& points, const FoundHeap& found
   return survey.heap.height > survey.threshold;
 }
 
+/// A scan's ground may be bent as a whole, in all sectors alike: by a bowl or a dome fitted to what
+/// is seen of it around the heap, z = a + c r^2, it would lie elsewhere below the heap's axis than
+/// the plane does by c mean(r^2), and the heap would be bent with it, by c R^2 / 2 in the mean over
+/// its base of the radius R.
+void find_bow(const std::vector<Eigen::Vector3d>& places, double tolerance, Survey& survey) {
+  std::vector<Eigen::Vector3d> ground;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& place : places) {
+    if (std::abs(survey.plane.height(place)) < tolerance) ground.push_back(place);
+  }
+  if (ground.empty()) return;
+  for (const Eigen::Vector3d& place : ground) middle += place / static_cast<double>(ground.size());
+  const auto n = static_cast<double>(ground.size());
+  double r2 = 0, z = 0, r4 = 0, r2z = 0;
+  for (const Eigen::Vector3d& place : ground) {
+    const double height = survey.plane.height(place);
+    const double square = (place - middle).squaredNorm() - height * height;
+    r2 += square / n, z += height / n, r4 += square * square / n, r2z += square * height / n;
+  }
+  const double spread = r4 - r2 * r2;
+  if (!(spread > 0)) return;
+  survey.bow = (r2z - r2 * z) / spread;
+  survey.sunk = std::abs(survey.bow) * (r2 + base_radius2(survey) / 2);
+}
+
 /// Fits the ground to what is seen of it around the heap, and draws the map on that.
 /// @param is_told  the ground is as a person has said
 bool survey_heap(const std::vector<Eigen::Vector3d>& points, const FoundHeap& found, bool is_told,
@@ -141,6 +176,7 @@ bool survey_heap(const std::vector<Eigen::Vector3d>& points, const FoundHeap& fo
       heights[static_cast<std::size_t>(around.sector[k])].push_back(height);
     }
   }
+  find_bow(around.places, tolerance, survey);
   for (const std::vector<double>& sector : heights) {
     if (sector.size() >= kFewestInSector) survey.levels.push_back(median(sector));
   }
@@ -253,6 +289,9 @@ double half_width_rad(const std::vector<Eigen::Vector3d>& points, const Survey& 
   add(base::kNormal95 * noise_error_rad(points, survey, options));
   add(unseen_95(slices));
   add(skin_of(survey) / run * std::cos(mean) * std::cos(mean));
+  // The bow's slope, 2 c r, where the window ends.
+  const double low_end = (1 - options.window_from) * std::sqrt(base_radius2(survey));
+  add(2 * survey.bow * low_end * std::cos(mean) * std::cos(mean));
   if (level > 1e-5 * survey.heap.height) {
     const auto up = slices_of(lifted(survey.heap, level), options).mean();
     const auto down = slices_of(lifted(survey.heap, -level), options).mean();
@@ -288,7 +327,7 @@ Volume volume_of(const Survey& survey, double angle_rad) {
     found.area += survey.heap.base[k] != 0 ? cell : 0;
     holes += map.kind[k] == CellKind::hole ? std::abs(part) : 0;
   }
-  const double level = survey.level_95() * found.area;
+  const double level = (survey.level_95() + survey.sunk) * found.area;
   const double skin = skin_of(survey) * found.area;
   found.half_width =
       std::sqrt(std::pow(level, 2) + std::pow(skin, 2) + std::pow(kHoleDoubt * holes, 2) +
@@ -403,8 +442,9 @@ void add_sizes(const Survey& survey, const Volume& volume, double angle_rad, Sca
   constexpr double kMmPerCell = 0.5;  // rounding to cells, at either end
   constexpr double kMm3PerMl = 1000;
   const double cell = survey.heap.map.plan.cell, mm = *result.unit_mm;
-  const double level = survey.level_95();
-  const double height_doubt = std::hypot(level, 2 * survey.plane.noise);
+  const double level = survey.level_95() + survey.sunk;
+  const double grid = kMmPerCell * cell * std::tan(angle_rad);
+  const double height_doubt = std::hypot(level, 2 * survey.plane.noise, grid);
   result.height_mm = Estimate{survey.heap.height * mm, height_doubt * mm};
   const double width = 2 * std::sqrt(volume.area / std::numbers::pi);
   const double toe = survey.threshold / std::tan(angle_rad);
@@ -478,6 +518,13 @@ ScannedHeap measured(const Scan& scan, const ScanOptions& options) {
   result.angle.window = {options.window_from, options.window_to};
   if (result.angle.window == base::kUsualDefinition.window) {
     result.angle.definition = base::kUsualDefinition.name;
+  }
+  if (options.unit_mm && scan.unit_mm && *options.unit_mm != *scan.unit_mm) {
+    throw base::InputError(
+        {.subject = "unit",
+         .value = fmt::format("= {:g} mm", *options.unit_mm),
+         .rule = fmt::format("the file says that one unit is {:g} mm", *scan.unit_mm),
+         .fix = "leave it out."});
   }
   result.unit_mm = options.unit_mm ? options.unit_mm : scan.unit_mm;
   const std::vector<Eigen::Vector3d> points = usable_points(scan, result);

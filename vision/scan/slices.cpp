@@ -117,7 +117,8 @@ Slice slice_of(double azimuth_rad, const HalfProfile& profile, FlankFit fit) {
                           .status = fit.status,
                           .reason = fit.reason,
                           .angle_rad = {}},
-              .fit = std::move(fit)};
+              .fit = std::move(fit),
+              .reach = static_cast<double>(profile.height.size())};
   if (slice.azimuth.status == FlankStatus::truncated) {
     slice.azimuth.reason = "the scan's edge cuts the flank off";
   } else if (slice.azimuth.status == FlankStatus::ok && profile.unseen > kMostUnseen) {
@@ -249,10 +250,16 @@ Slices slices_of(const StandingScan& heap, const ScanOptions& options, bool has_
     const double right_rad = k * kStep_rad, left_rad = right_rad + std::numbers::pi;
     const HalfProfile right = half_profile(rays, k * kRaysPerStep, crest, options);
     const HalfProfile left = half_profile(rays, (k + kAzimuths / 2) * kRaysPerStep, crest, options);
-    const Profile profile = joined(left, right, crest);
-    FlankFit left_fit = fit_flank(profile, Side::left, flank);
-    FlankFit right_fit = fit_flank(profile, Side::right, flank);
-    if (has_definitions) {
+    FlankFit left_fit, right_fit;
+    const bool has_axis = !left.height.empty() && !right.height.empty();
+    const Profile profile = has_axis ? joined(left, right, crest) : Profile{};
+    if (has_axis) {
+      left_fit = fit_flank(profile, Side::left, flank);
+      right_fit = fit_flank(profile, Side::right, flank);
+    } else {
+      left_fit.reason = right_fit.reason = "the scan does not show the heap's axis";
+    }
+    if (has_definitions && has_axis) {
       const FittedEdge edge{.profile = profile, .left = left_fit, .right = right_fit, .grain = {}};
       definitions.add(other_definitions(edge));
     }

@@ -31,6 +31,7 @@ StandingScan lifted(const StandingScan& heap, double rise);
 struct Slice {
   Azimuth azimuth;
   FlankFit fit;
+  double reach = 0;  ///< cells from the axis to the base's end
 };
 
 /// The heap's flanks along the half-planes.
