@@ -96,7 +96,7 @@ class Neighbours {
     }
     std::map<int, Level> levels;
     for (std::size_t k = 0; k < spheres.size(); ++k) {
-      Level& level = levels[static_cast<int>(std::log2(spheres[k].radius / smallest))];
+      Level& level = levels[static_cast<int>(std::log2(spheres[k].radius) - std::log2(smallest))];
       level.largest = std::max(level.largest, spheres[k].radius);
       level.members.push_back(k);
     }
@@ -135,7 +135,9 @@ class Neighbours {
   Cell cell_of(std::size_t k, double cell) const {
     Cell at{};
     for (int axis = 0; axis < 3; ++axis) {
-      const double place = std::floor((spheres_[k].centre[axis] - origin_[axis]) / cell);
+      // Of numbers near the largest there are, neither the difference nor the cell is finite.
+      const double apart = std::floor((spheres_[k].centre[axis] - origin_[axis]) / cell);
+      const double place = std::isnan(apart) ? 0 : apart;
       at[static_cast<std::size_t>(axis)] =
           kHalf + static_cast<std::int64_t>(std::clamp(place, -1. * kHalf + 2, 1. * kHalf - 2));
     }
