@@ -241,7 +241,7 @@ dem::Study with_pictures(dem::Study study, const std::vector<PictureReading>& pi
   if (!set.heaps_deg) return study;
   dem::Measured& measured = heap->second.measured;
   measured.values.clear();
-  for (const HeapOfSet& heap : set.heaps) measured.values.push_back(heap.angle_deg);
+  for (const HeapOfSet& one : set.heaps) measured.values.push_back(one.angle_deg);
   if (set.own_deg > 0) measured.value_uncertainty = set.own_deg / base::kNormal95;
   if (set.within_sd_deg) measured.within_heaps = {set.pictures, *set.within_sd_deg};
   if (!(set.camera_deg > 0)) return study;
