@@ -80,7 +80,7 @@ TEST_F(ParticleFiles, TablesAreReadWhateverTheirHeaderIs) {
     SCOPED_TRACE(look.header);
     const Particles read_back = read("heap.csv", particle_table(heap_, look));
     expect_same(read_back, heap_);
-    EXPECT_EQ(read_back.unit.empty(), look.header.find("m") == std::string::npos ||
+    EXPECT_EQ(read_back.unit.empty(), look.header.find('m') == std::string::npos ||
                                           look.header.find("clump") != std::string::npos ||
                                           look.header.find("format") != std::string::npos);
     EXPECT_EQ(read_back.grains.empty(), look.order.find('g') == std::string::npos);
@@ -322,8 +322,8 @@ TEST_F(StandingHeapTest, RefusesWhatIsNoSingleHeapAtRest) {
   EXPECT_THAT(fault(two), HasSubstr("two heaps"));
   Spheres raining = heap_;
   for (int k = 0; k < static_cast<int>(heap_.size()) / 4; ++k) {
-    raining.push_back(
-        {.centre = {.01 * (k % 9), .01 * (k / 9 % 9), .1 + .01 * (k / 81)}, .radius = .002});
+    const int column = k % 9, row = k / 9 % 9, layer = k / 81;
+    raining.push_back({.centre = {.01 * column, .01 * row, .1 + .01 * layer}, .radius = .002});
   }
   EXPECT_THAT(fault(raining), HasSubstr("not at rest"));
   Spheres small = heap_;

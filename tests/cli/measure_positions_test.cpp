@@ -25,7 +25,7 @@ class MeasurePositions : public ::testing::Test {
                                                     .per_m = 1e3}));
     folder_.write("dump.9000", dump_step(0, moved(cone, {0, 0, .1})) + dump_step(9000, cone));
   }
-  Finished run(std::vector<std::string> words) const { return run_repose(folder_, words); }
+  Finished run(const std::vector<std::string>& words) const { return run_repose(folder_, words); }
   std::string text(const std::string& name) const { return text_of(folder_.path() / name); }
 
   TemporaryFolder folder_;

@@ -204,6 +204,21 @@ struct XmlLook {
   bool is_polydata = false;
 };
 
+/// Pieces of a file's bytes, each compressed by itself.
+inline std::vector<std::string> packed_blocks(const std::string& bytes, std::size_t block_bytes) {
+  std::vector<std::string> blocks;
+  for (std::size_t at = 0; at < bytes.size(); at += block_bytes) {
+    const std::string block = bytes.substr(at, block_bytes);
+    uLongf size = compressBound(block.size());
+    std::string packed(size, '\0');
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+             reinterpret_cast<const Bytef*>(block.data()), block.size());
+    packed.resize(size);
+    blocks.push_back(packed);
+  }
+  return blocks;
+}
+
 inline std::string xml_vtk(const Spheres& spheres, const XmlLook& look) {
   using enum XmlLook::Form;
   std::string appended;
@@ -227,16 +242,7 @@ inline std::string xml_vtk(const Spheres& spheres, const XmlLook& look) {
     std::string encoded;
     if (look.is_packed) {
       constexpr std::size_t kBlock = 1 << 12;
-      std::vector<std::string> blocks;
-      for (std::size_t at = 0; at < bytes.size(); at += kBlock) {
-        const std::string block = bytes.substr(at, kBlock);
-        uLongf size = compressBound(block.size());
-        std::string packed(size, '\0');
-        compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-                 reinterpret_cast<const Bytef*>(block.data()), block.size());
-        packed.resize(size);
-        blocks.push_back(packed);
-      }
+      const std::vector<std::string> blocks = packed_blocks(bytes, kBlock);
       count(blocks.size());
       count(kBlock);
       count(bytes.size() % kBlock);

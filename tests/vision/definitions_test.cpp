@@ -190,7 +190,7 @@ TEST(NamedDefinitions, AFootBeyondTheFrameHasNoHeightOverBase) {
 }
 
 TEST(NamedDefinitions, WhatCannotBeMeantIsRefused) {
-  const auto faults = [](MeasureOptions options) { return options.problems().size(); };
+  const auto faults = [](const MeasureOptions& options) { return options.problems().size(); };
   MeasureOptions options;
   options.definition = "cone";
   EXPECT_EQ(faults(options), 1);
