@@ -137,7 +137,7 @@ void add_view(const Stand& stand, const std::vector<Ball>& balls, const DepthSca
   }
 }
 
-constexpr double kMm = 1000;
+constexpr double kMmPerM = 1000;
 
 }  // namespace
 
@@ -163,7 +163,7 @@ std::vector<base::Corner> scanned(const render::Scene& scene, const DepthScanner
   std::vector<base::Corner> turned;
   turned.reserve(points.size());
   for (const Vector& point : points) {
-    const Vector place = kMm * (any * point);
+    const Vector place = kMmPerM * (any * point);
     turned.push_back({place.x(), place.y(), place.z()});
   }
   return turned;
@@ -200,8 +200,8 @@ ExactSurface surface_from_above(const render::Scene& scene) {
       const double height =
           heights[static_cast<std::size_t>(y) * kAcross + static_cast<std::size_t>(x)];
       exact.volume_ml += height * step * step * kMlPerM3;
-      exact.points.push_back(
-          {kMm * ((x + .5) * step - half), kMm * ((y + .5) * step - half), kMm * height});
+      exact.points.push_back({kMmPerM * ((x + .5) * step - half),
+                              kMmPerM * ((y + .5) * step - half), kMmPerM * height});
     }
   }
   return exact;
