@@ -418,7 +418,16 @@ Particles particles_of(ParticleColumns columns, const ParticleReading& reading) 
 
 std::size_t chosen_step(const std::string& file, const std::vector<std::string>& labels,
                         const ParticleReading& reading) {
-  if (!reading.step) return labels.size() - 1;
+  if (!reading.step) {
+    // The latest, wherever it stands.
+    std::size_t latest = 0;
+    for (std::size_t k = 1; k < labels.size(); ++k) {
+      const auto label = TextScanner::number(labels[k]);
+      const auto before = TextScanner::number(labels[latest]);
+      if (!label || !before || *label >= *before) latest = k;
+    }
+    return latest;
+  }
   for (std::size_t k = labels.size(); k-- > 0;) {
     const auto label = TextScanner::number(labels[k]);
     if (label && std::abs(*label - *reading.step) <= 1e-9 * std::abs(*reading.step)) return k;

@@ -53,7 +53,7 @@ ParticleColumns columns_in_legacy_vtk(const std::string& file, std::string_view 
 ParticleColumns columns_in_xml_vtk(const std::string& file, std::string_view text,
                                    const ParticleReading& reading);
 
-/// Of steps with these labels, in the file's order, the one that is asked for, or the last.
+/// Of steps with these labels, in the file's order, the one that is asked for, or the latest.
 /// @throws base::InputError  there is no such step.
 std::size_t chosen_step(const std::string& file, const std::vector<std::string>& labels,
                         const ParticleReading& reading);

@@ -27,7 +27,7 @@ std::vector<CommandOption> position_options(PositionArguments& arguments) {
           {"--up", "x|y|z|-x|-y|-z", "Particles: direction that is up (z)", &arguments.up},
           {"--plate-height", "NUMBER", "Particles: the plate, on that axis (found)",
            &arguments.plate_height},
-          {"--step", "NUMBER", "Particles: time step (the last)", &arguments.step},
+          {"--step", "NUMBER", "Particles: time step (the latest)", &arguments.step},
           {"--particle-mm", "MM", "Particles: diameter, where the file has none",
            &arguments.particle_mm}};
 }

@@ -180,6 +180,7 @@ TEST_F(ParticleFiles, OfSeveralStepsTheLastIsTakenOrTheOneAskedFor) {
   EXPECT_EQ(last.steps, 2);
   expect_same(last, heap_);
   expect_same(read("a.dump", dump, {.step = 100}), falling);
+  EXPECT_EQ(read("b.dump", dump_step(200, heap_) + dump_step(100, falling)).step, "200");
   EXPECT_THAT(fault("a.dump", dump, {.step = 150}),
               AllOf(HasSubstr("no time step 150"), HasSubstr("100, 200")));
   std::string table = "time,x,y,z,r\n";
