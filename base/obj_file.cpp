@@ -12,19 +12,11 @@
 
 #include "base/input_error.h"
 #include "base/polygon_file.h"
+#include "base/text.h"
 
 namespace repose::base {
 
 namespace {
-
-/// Takes the next word from a line; empty at its end.
-std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view kBlanks = " \t\r\v\f";
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-  line.remove_prefix(word.size());
-  return word;
-}
 
 /// All of a word as a number.
 template <typename Number>

@@ -122,4 +122,12 @@ std::string closest_word(std::string_view mistyped, std::span<const std::string>
   return best;
 }
 
+std::string_view take_word(std::string_view& text) {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
 }  // namespace repose::base

@@ -36,6 +36,9 @@ std::vector<std::string> wrapped(std::string_view text,
 /// and bytes that are no UTF-8 become "\xNN". Line breaks and tabs stay.
 std::string printable(std::string_view text);
 
+/// Takes the next word, parted by blanks and line ends, from the text; empty at its end.
+std::string_view take_word(std::string_view& text);
+
 /// The word of `known` that is closest to a mistyped one; empty when none is close.
 std::string closest_word(std::string_view mistyped, std::span<const std::string> known);
 

@@ -14,7 +14,7 @@ using testing::Random;
 
 constexpr double kSpacing = .92;   // between neighbours / width
 constexpr double kLayer = .75;     // from a layer down to the next / width
-constexpr int kLayers = 2;         // deeper ones cannot be seen
+constexpr int kLayers = 5;         // so that no line of sight meets the plate below
 constexpr double kDeepest = .4;    // how far a grain may lie below its layer / width
 constexpr double kSideways = .15;  // how far it may lie beside its place / width
 

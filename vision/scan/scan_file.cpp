@@ -17,6 +17,7 @@
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
+#include "base/text.h"
 #include "vision/scan/glb_file.h"
 
 namespace repose::vision {
@@ -68,17 +69,8 @@ TriangleSoup parse_binary_stl(std::string_view bytes) {
   return soup;
 }
 
-/// The next word, and takes it away; empty at the end.
-std::string_view next_word(std::string_view& rest) {
-  constexpr std::string_view kBlanks = " \t\r\n\v\f";
-  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
-  const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
-  rest.remove_prefix(word.size());
-  return word;
-}
-
 double next_number(std::string_view& rest) {
-  std::string_view word = next_word(rest);
+  std::string_view word = base::take_word(rest);
   if (word.starts_with('+')) word.remove_prefix(1);
   double number = 0;
   const char* const end = word.data() + word.size();
@@ -95,7 +87,7 @@ TriangleSoup parse_text_stl(std::string_view rest) {
   std::array<base::Corner, 3> corners{};
   std::size_t read = 0;
   bool is_whole = false;
-  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+  for (std::string_view word = base::take_word(rest); !word.empty(); word = base::take_word(rest)) {
     is_whole = word == "endsolid";
     if (is_whole) rest.remove_prefix(std::min(rest.find('\n'), rest.size()));
     if (word == "facet") read = 0;

@@ -20,182 +20,14 @@
 #include "vision/scan/height_map.h"
 #include "vision/scan/scan_verdict.h"
 #include "vision/scan/slices.h"
+#include "vision/scan/survey.h"
 
 namespace repose::vision {
 
 namespace {
 
 constexpr std::size_t kFewestPointsOfScan = 2000;
-constexpr int kSectors = 8;
-constexpr double kBeyondHeap = 1.7;   // half of the plan's side, in radii of the heap
-constexpr double kCellsAcross = 240;  // of the heap, where there are points enough
 constexpr double kFewestAcross = 50;  // 12 points in a slice's window
-constexpr double kPointsPerCell = 6;
-
-/// The ground around the heap, cell by cell.
-struct AroundHeap {
-  std::vector<Eigen::Vector3d> places;  ///< in the file's coordinates
-  std::vector<int> sector;
-};
-
-/// A heap that stands on its map, and how well its ground is known.
-struct Survey {
-  GroundPlane plane;
-  ScanFrame frame;
-  StandingScan heap;
-  double threshold = 0;
-  double cut = 0;              ///< of the base's rim
-  std::vector<double> levels;  ///< of the sectors around it in which the ground is seen
-  double bow = 0;   ///< c of the ground's height c r^2 around the heap's axis, by its fit
-  double sunk = 0;  ///< by how much such a ground lies elsewhere below the heap
-
-  /// Standard deviation of the sectors' levels.
-  double level_sd() const {
-    double mean = 0, squares = 0;
-    for (const double level : levels) mean += level / static_cast<double>(levels.size());
-    for (const double level : levels) squares += (level - mean) * (level - mean);
-    return levels.size() < 2 ? 0 : std::sqrt(squares / static_cast<double>(levels.size() - 1));
-  }
-  /// Half-width of the 95 % interval of the height of the heap above its ground: both levels are
-  /// as uncertain as a mean of such sectors (GUM, 4.2.3).
-  double level_95() const {
-    if (levels.size() < 2) return 0;
-    const auto n = static_cast<double>(levels.size());
-    return base::student_t_quantile(.975, n - 1) * std::numbers::sqrt2 * level_sd() / std::sqrt(n);
-  }
-};
-
-/// Square of the radius of the circle as large as the base.
-double base_radius2(const Survey& survey) {
-  const auto cells = static_cast<double>(
-      std::count(survey.heap.base.begin(), survey.heap.base.end(), std::uint8_t{1}));
-  return cells * survey.heap.map.plan.cell * survey.heap.map.plan.cell / std::numbers::pi;
-}
-
-MapPlan plan_around(const FoundHeap& found) {
-  const double sparse = std::sqrt(kPointsPerCell * found.area / std::max(1.0, found.points));
-  const double cell = std::max(2 * found.radius / kCellsAcross, sparse);
-  const double half = kBeyondHeap * found.radius;
-  const int side = static_cast<int>(std::ceil(2 * half / cell));
-  return {.corner = Eigen::Vector2d::Constant(-side * cell / 2), .cell = cell, .side = side};
-}
-
-AroundHeap ground_around(const Survey& survey) {
-  constexpr double kClear = 0.1;  // of the base's radius between heap and ground
-  const HeightMap& map = survey.heap.map;
-  const auto cells = static_cast<double>(
-      std::count(survey.heap.base.begin(), survey.heap.base.end(), std::uint8_t{1}));
-  const int clear =
-      std::max(2, static_cast<int>(std::lround(kClear * std::sqrt(cells / std::numbers::pi))));
-  const auto near = dilated(map, survey.heap.base, clear);
-  AroundHeap around;
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    if (near[k] != 0 || map.kind[k] != CellKind::seen) continue;
-    const Eigen::Vector2d place = map.middle(k);
-    const Eigen::Vector2d out = place - survey.heap.axis;
-    const double turn = std::atan2(out.y(), out.x()) / (2 * std::numbers::pi) + .5;
-    around.places.push_back(survey.frame.outside({place.x(), place.y(), map.height[k]}));
-    around.sector.push_back(std::min(kSectors - 1, static_cast<int>(turn * kSectors)));
-  }
-  return around;
-}
-
-/// Draws the map and finds the heap on it.
-bool draw_map(const std::vector<Eigen::Vector3d>& points, const FoundHeap& found, Survey& survey) {
-  constexpr double kAboveNoise = 4, kAbove = 0.03, kBelowNoise = 8, kBelow = 0.1;
-  constexpr std::size_t kFewestInBody = 50;
-  survey.frame = ScanFrame(survey.plane, found.middle);
-  const double lowest = -std::max(kBelowNoise * survey.plane.noise, kBelow * found.radius);
-  survey.heap.map = height_map(points, survey.frame, plan_around(found), lowest);
-  double highest = survey.heap.height;
-  if (highest <= 0) {
-    const auto rough =
-        regions_above(survey.heap.map, kAboveNoise * survey.plane.noise, kFewestInBody);
-    if (rough.empty()) return false;
-    highest = rough.front().highest;
-  }
-  survey.threshold = std::max(kAboveNoise * survey.plane.noise, kAbove * highest);
-  const auto regions = regions_above(survey.heap.map, survey.threshold, kFewestInBody);
-  if (regions.empty()) return false;
-  survey.heap.base = mask_of(survey.heap.map, regions.front());
-  survey.cut = regions.front().cut;
-  set_crest_and_axis(survey.heap);
-  return survey.heap.height > survey.threshold;
-}
-
-/// A scan's ground may be bent as a whole, in all sectors alike: by a bowl or a dome fitted to what
-/// is seen of it around the heap, z = a + c r^2, it would lie elsewhere below the heap's axis than
-/// the plane does by c mean(r^2), and the heap would be bent with it, by c R^2 / 2 in the mean over
-/// its base of the radius R.
-void find_bow(const std::vector<Eigen::Vector3d>& places, double tolerance, Survey& survey) {
-  std::vector<Eigen::Vector3d> ground;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& place : places) {
-    if (std::abs(survey.plane.height(place)) < tolerance) ground.push_back(place);
-  }
-  if (ground.empty()) return;
-  for (const Eigen::Vector3d& place : ground) middle += place / static_cast<double>(ground.size());
-  const auto n = static_cast<double>(ground.size());
-  double r2 = 0, z = 0, r4 = 0, r2z = 0;
-  for (const Eigen::Vector3d& place : ground) {
-    const double height = survey.plane.height(place);
-    const double square = (place - middle).squaredNorm() - height * height;
-    r2 += square / n, z += height / n, r4 += square * square / n, r2z += square * height / n;
-  }
-  const double spread = r4 - r2 * r2;
-  if (!(spread > 0)) return;
-  survey.bow = (r2z - r2 * z) / spread;
-  survey.sunk = std::abs(survey.bow) * (r2 + base_radius2(survey) / 2);
-}
-
-/// Fits the ground to what is seen of it around the heap, and draws the map on that.
-/// @param is_told  the ground is as a person has said
-bool survey_heap(const std::vector<Eigen::Vector3d>& points, const FoundHeap& found, bool is_told,
-                 Survey& survey) {
-  constexpr int kRounds = 2;
-  constexpr double kNearGround = 0.05;  // of the heap's height, and at least
-  constexpr double kWithinNoise = 4;
-  for (int round = 0; round < kRounds; ++round) {
-    if (!draw_map(points, found, survey)) return false;
-    const AroundHeap around = ground_around(survey);
-    const double tolerance =
-        std::max(kWithinNoise * survey.plane.noise, kNearGround * survey.heap.height);
-    const GroundPlane local = refined(survey.plane, around.places, tolerance);
-    survey.plane.noise = local.noise;
-    if (!is_told) survey.plane = local;
-  }
-  if (!draw_map(points, found, survey)) return false;
-  const AroundHeap around = ground_around(survey);
-  constexpr std::size_t kFewestInSector = 20;
-  const double tolerance =
-      std::max(kWithinNoise * survey.plane.noise, kNearGround * survey.heap.height);
-  std::array<std::vector<double>, kSectors> heights;
-  for (std::size_t k = 0; k < around.places.size(); ++k) {
-    const double height = survey.plane.height(around.places[k]);
-    if (std::abs(height) < tolerance) {
-      heights[static_cast<std::size_t>(around.sector[k])].push_back(height);
-    }
-  }
-  find_bow(around.places, tolerance, survey);
-  for (const std::vector<double>& sector : heights) {
-    if (sector.size() >= kFewestInSector) survey.levels.push_back(median(sector));
-  }
-  return true;
-}
-
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
-}
-
-double sd_of(const std::vector<double>& values) {
-  if (values.size() < 2) return 0;
-  const double mean = mean_of(values);
-  double squares = 0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt(squares / static_cast<double>(values.size() - 1));
-}
 
 /// The same heap on a map of half of its points, with cells twice as large, so that as many points
 /// are in each.
@@ -257,16 +89,14 @@ double unseen_95(const Slices& slices) {
 }
 
 /// How well the surface between the grains is known: what a stand sees of the gaps depends on where
-/// it looks from. A sixth of the robust standard deviation of the heights around their mean over
+/// it looks from. A quarter of the robust standard deviation of the heights around their mean over
 /// a tenth of the base's radius: our own convention, by how much scans of simulated heaps without
 /// any noise came out too high or too low as their stands stood higher or lower (bench
 /// scan_accuracy).
 double skin_of(const Survey& survey) {
-  constexpr double kOfRadius = 0.1, kOfRelief = 1.0 / 6;
+  constexpr double kOfRadius = 0.1, kOfRelief = 0.25;
   const HeightMap& map = survey.heap.map;
-  const auto cells = static_cast<double>(
-      std::count(survey.heap.base.begin(), survey.heap.base.end(), std::uint8_t{1}));
-  const double radius = std::sqrt(cells / std::numbers::pi);
+  const double radius = survey.base_radius() / map.plan.cell;
   const std::vector<float> smooth =
       smoothed(map, std::max(2, static_cast<int>(std::lround(kOfRadius * radius))));
   std::vector<double> relief;
@@ -290,7 +120,7 @@ double half_width_rad(const std::vector<Eigen::Vector3d>& points, const Survey& 
   add(unseen_95(slices));
   add(skin_of(survey) / run * std::cos(mean) * std::cos(mean));
   // The bow's slope, 2 c r, where the window ends.
-  const double low_end = (1 - options.window_from) * std::sqrt(base_radius2(survey));
+  const double low_end = (1 - options.window_from) * survey.base_radius();
   add(2 * survey.bow * low_end * std::cos(mean) * std::cos(mean));
   if (level > 1e-5 * survey.heap.height) {
     const auto up = slices_of(lifted(survey.heap, level), options).mean();
@@ -484,7 +314,9 @@ ScannedHeap measured_on(const std::vector<Eigen::Vector3d>& points, const HeapSe
                 .heap = {},
                 .threshold = 0,
                 .cut = 0,
-                .levels = {}};
+                .levels = {},
+                .bow = 0,
+                .sunk = 0};
   if (!survey_heap(points, *search.heap, options.ground.has_value(), survey)) {
     return refused(
         std::move(result),

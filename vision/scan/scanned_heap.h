@@ -90,8 +90,9 @@ inline constexpr int kAzimuths = 72;
 /// - the ground's level: by how much the levels of the sectors around the heap scatter, and what
 ///   moving all heights by that changes; the same scatter as a tilt of single flanks, since stands
 ///   that are registered wrongly tilt both;
-/// - the surface between the grains, of which stands see more or less: a sixth of its relief,
-/// over
+/// - a ground that is bent as a whole, by a bowl fitted to what is seen of it: its slope where the
+///   window ends;
+/// - the surface between the grains, of which stands see more or less: a quarter of its relief, over
 ///   the window's length;
 /// - azimuths that were not seen: the scatter between octants, as a sample of a finite population
 ///   (Cochran, Sampling Techniques (1977), sec. 2.6);
@@ -104,11 +105,12 @@ inline constexpr int kAzimuths = 72;
 ///     V = sum over the base of h A        h  height above the ground, A  a cell's area
 ///
 /// from the middle of cells (midpoint rule); the base reaches as far as the flank needs to come
-/// down from the threshold to the ground. Its interval covers the ground's level, the surface
-/// between the grains and the holes.
+/// down from the threshold to the ground. Its interval covers the ground's level and bend, the
+/// surface between the grains and the holes. A plate under the heap that is not much wider counts
+/// as heap; a step where the heap ends short of its flanks' line is flagged.
 /// Proved by ScannedHeap.* in tests/vision/scanned_heap_test.cpp: cones of known angle and volume.
-/// @throws base::InputError  a window that MeasureOptions refuses, a unit that is not above 0, or
-///   three points on one line.
+/// @throws base::InputError  a window that MeasureOptions refuses, a unit that is not above 0 or
+///   not the file's own, or three points on one line.
 ScannedHeap measure_scan(const Scan& scan, const ScanOptions& options = {});
 
 }  // namespace repose::vision
