@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angle_definition.h"
 #include "base/units.h"
 #include "base/version.h"
 #include "calibrate/experiment/heap_angle.h"
@@ -204,8 +205,10 @@ PageJpeg page_overlay(const vision::Picture& overlay, std::size_t pictures) {
   return page_jpeg(overlay, longest_side_px(pictures));
 }
 
-Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
+Report measure_report(const std::vector<MeasuredPhotograph>& pictures,
+                      const vision::MeasureOptions& options) {
   const calibrate::PictureSet set = set_of(pictures);
+  const std::string named = options.definition_text();
   Document document{
       .title = fmt::format("{} picture{}", pictures.size(), pictures.size() == 1 ? "" : "s"),
       .kind = "Angles of repose",
@@ -226,13 +229,12 @@ Report measure_report(const std::vector<MeasuredPhotograph>& pictures) {
   document.chapters.push_back(
       {.id = "methods",
        .title = "How the angle is measured",
-       .blocks = {Paragraph{
-           "On each flank a straight line is fitted to the heap's edge within the window stated "
-           "with the result, by default 20 to 80 % of the height; the angle of repose is the mean "
-           "of "
-           "both lines' angles to the ground line. ± is the half-width of the 95 % interval for "
-           "that "
-           "one heap; the scatter between heaps is not included."}}});
+       .blocks = {Paragraph{fmt::format(
+           "On each flank, {}; the angle of repose is the mean of both, relative to the ground "
+           "line. ± "
+           "is the half-width of the 95 % interval for that one heap; the scatter between heaps is "
+           "not included.",
+           named.empty() ? std::string(base::kUsualDefinition.description) : named)}}});
   return report_of(std::move(document));
 }
 

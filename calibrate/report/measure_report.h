@@ -36,6 +36,8 @@ struct MeasuredPhotograph {
 
 /// A page about a batch of pictures, as `repose measure` measured them: the mean of those that
 /// gave a number and its interval, each picture with its overlay, and why some gave no number.
-Report measure_report(const std::vector<MeasuredPhotograph>& pictures);
+/// @param options  that they were measured with
+Report measure_report(const std::vector<MeasuredPhotograph>& pictures,
+                      const vision::MeasureOptions& options = {});
 
 }  // namespace repose::calibrate::report

@@ -76,6 +76,12 @@ Json in_grains(const ComparePlan& plan, const vision::HeapComparison& comparison
   return *comparison.profile_rmse / *plan.grain_m;
 }
 
+/// The same of both.
+Json definition_json(const ComparePlan& plan) {
+  const std::string name = plan.measuring.front().named_definition();
+  return name.empty() ? Json() : Json(name);
+}
+
 }  // namespace
 
 std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& comparison) {
@@ -92,6 +98,7 @@ std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& 
             {"unit", is_refused ? Json(nullptr) : Json(name_of(comparison.unit))}};
   add_angle_difference(json, comparison.angle);
   json["margin_deg"] = degrees(plan.comparing.margin_rad);
+  json["definition"] = definition_json(plan);
   json["angle_deg"] = {degrees(comparison.angle_rad[0]), degrees(comparison.angle_rad[1])};
   json["uncertainty_deg"] = {degrees(comparison.uncertainty_rad[0]),
                              degrees(comparison.uncertainty_rad[1])};
@@ -170,6 +177,7 @@ std::string sets_json(const ComparePlan& plan,
   json["unit"] = comparison.iou ? Json(name_of(comparison.unit)) : Json(nullptr);
   add_angle_difference(json, comparison.angle);
   json["margin_deg"] = degrees(plan.comparing.margin_rad);
+  json["definition"] = definition_json(plan);
   json["heaps_to_tell"] =
       comparison.heaps_to_tell ? Json(*comparison.heaps_to_tell) : Json(nullptr);
   json["warnings"] = Json::array();

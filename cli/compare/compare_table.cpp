@@ -60,6 +60,12 @@ class Lengths {
   bool is_metric_;
 };
 
+/// What the angles are by, where that is not the usual definition.
+void add_definition(Table& table, const ComparePlan& plan) {
+  const std::string definition = plan.measuring.front().definition_text();
+  if (!definition.empty()) table.add_note("", "all angles by " + definition);
+}
+
 /// A name and three columns of numbers, as wide in all tables of the comparison.
 Table comparison_table(const std::array<const char*, 4>& headings) {
   constexpr std::size_t kNameWidth = 24, kCellWidth = 14;
@@ -131,6 +137,7 @@ std::string measured_text(const ComparePlan& plan, const vision::HeapComparison&
   table.add_row(lengths.pair_row("base", comparison.base));
   table.add_row(lengths.pair_row("  left of the axis", comparison.left.run_out));
   table.add_row(lengths.pair_row("  right of the axis", comparison.right.run_out));
+  add_definition(table, plan);
   table.add_note("", verdict_text(comparison.angle, plan.comparing.margin_rad));
   return table.text(columns);
 }
@@ -207,6 +214,7 @@ Table means_table(const ComparePlan& plan, const vision::SetComparison& comparis
                  difference_cell(comparison.angle)});
   table.add_row({"heaps' standard deviation [°]", angle_cell(first.sd_rad, {}),
                  angle_cell(second.sd_rad, {})});
+  add_definition(table, plan);
   table.add_note("", verdict_text(comparison, plan.comparing.margin_rad));
   return table;
 }

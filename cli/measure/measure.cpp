@@ -404,20 +404,22 @@ void name_copies(std::vector<MeasuredPicture>& pictures) {
 }
 
 std::string human_text(const std::vector<MeasuredPicture>& pictures,
-                       const MeasureArguments& arguments) {
+                       const MeasureArguments& arguments, const MeasurePlan& plan) {
   const auto is_unread = [](const auto& picture) { return picture.outcome != Outcome::measured; };
   if (std::all_of(pictures.begin(), pictures.end(), is_unread)) return {};
   const TableStyle style{.columns = columns_of(stdout),
                          .has_colour = wants_colour(stdout),
                          .shows_definitions = arguments.shows_definitions};
   std::string text = measure_table(pictures, style);
+  const std::string definition = plan.options.definition_text();
+  if (!definition.empty()) text += "\nall angles by " + definition + '\n';
   const auto repeats = std::count_if(pictures.begin(), pictures.end(),
                                      [](const auto& picture) { return !is_of_series(picture); });
   if (repeats > 1) text += '\n' + summary_text(summarise(pictures)) + '\n';
   return text;
 }
 
-std::string report_page(const std::vector<MeasuredPicture>& pictures) {
+std::string report_page(const std::vector<MeasuredPicture>& pictures, const MeasurePlan& plan) {
   std::vector<calibrate::report::MeasuredPhotograph> shown;
   for (const MeasuredPicture& picture : pictures) {
     if (is_of_series(picture) || !picture.copy_of.empty()) continue;
@@ -427,17 +429,19 @@ std::string report_page(const std::vector<MeasuredPicture>& pictures) {
                      .overlay = picture.overlay,
                      .heap = picture.heap});
   }
-  return calibrate::report::measure_report(shown).html;
+  return calibrate::report::measure_report(shown, plan.options).html;
 }
 
-Outputs results_of(const std::vector<MeasuredPicture>& pictures,
-                   const MeasureArguments& arguments) {
+Outputs results_of(const std::vector<MeasuredPicture>& pictures, const MeasureArguments& arguments,
+                   const MeasurePlan& plan) {
   Outputs outputs;
-  outputs.show(human_text(pictures, arguments));
+  outputs.show(human_text(pictures, arguments, plan));
   outputs.add(arguments.json_file, measure_json(pictures));
   outputs.add(arguments.csv_file, measure_csv(pictures));
-  outputs.add(arguments.summary_file, summary_json(summarise(pictures)));
-  if (!arguments.report_file.empty()) outputs.add(arguments.report_file, report_page(pictures));
+  outputs.add(arguments.summary_file, summary_json(summarise(pictures), plan.options));
+  if (!arguments.report_file.empty()) {
+    outputs.add(arguments.report_file, report_page(pictures, plan));
+  }
   return outputs;
 }
 
@@ -477,7 +481,7 @@ ExitCode run_measure(const MeasureArguments& arguments) {
     for (MeasuredPicture& picture : pictures) picture.heap = vision::heap_by_name(picture.file);
   }
   name_outliers(pictures);
-  Outputs outputs = results_of(pictures, arguments);
+  Outputs outputs = results_of(pictures, arguments, plan);
   outputs.write_files();
   print_errors(pictures);
   outputs.write();

@@ -28,7 +28,8 @@ constexpr const char* kHeader =
     "camera,scale,mm_per_px,mm_per_px_uncertainty,height_mm,height_mm_uncertainty,"
     "base_mm,base_mm_uncertainty,cone_volume_ml,cone_volume_ml_uncertainty,"
     "left_run_out_mm,left_run_out_mm_uncertainty,right_run_out_mm,right_run_out_mm_uncertainty,"
-    "size_reason,volume_ml,volume_ml_uncertainty,azimuths,azimuth_sd_deg\n";
+    "size_reason,volume_ml,volume_ml_uncertainty,azimuths,azimuth_sd_deg,"
+    "definition\n";
 
 /// One row, field by field.
 class Row {
@@ -133,6 +134,7 @@ std::string scan_line(const MeasuredPicture& picture) {
   add_film(row, picture.filmed);
   add_sizes(row, picture);
   add_scan(row, picture.scan);
+  row.add_text(angle.definition);
   return row.line();
 }
 
@@ -162,6 +164,7 @@ std::string measured_line(const MeasuredPicture& picture) {
   add_film(row, picture.filmed);
   add_sizes(row, picture);
   add_scan(row, picture.scan);
+  row.add_text(angle.definition);
   return row.line();
 }
 
@@ -176,6 +179,7 @@ std::string unread_line(const MeasuredPicture& picture) {
   add_film(row, picture.filmed);
   add_sizes(row, picture);
   add_scan(row, picture.scan);
+  row.add_text("");
   return row.line();
 }
 

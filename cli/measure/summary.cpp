@@ -178,9 +178,12 @@ nlohmann::ordered_json heap_json(const calibrate::HeapOfSet& heap) {
 
 }  // namespace
 
-std::string summary_json(const Summary& summary) {
+std::string summary_json(const Summary& summary, const vision::MeasureOptions& options) {
   const calibrate::PictureSet& set = summary.pictures;
   nlohmann::ordered_json json = mean_json(set.heaps_deg);
+  const std::string definition = options.named_definition();
+  json["definition"] = nullptr;
+  if (!definition.empty()) json["definition"] = definition;
   json["pictures"] = set.pictures;
   json["within_heaps_sd_deg"] = nullptr;
   if (set.within_sd_deg) json["within_heaps_sd_deg"] = rounded(*set.within_sd_deg);

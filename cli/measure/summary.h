@@ -5,6 +5,7 @@
 
 #include "calibrate/experiment/picture_set.h"
 #include "cli/measure/measure.h"
+#include "vision/measure/repose_angle.h"
 
 namespace repose::cli {
 
@@ -33,7 +34,7 @@ void name_outliers(std::vector<MeasuredPicture>& pictures);
 /// "mean 23.38° sd 0.72° n = 10, ..." and what was flagged or left out.
 std::string summary_text(const Summary& summary);
 
-/// The same as a JSON object.
-std::string summary_json(const Summary& summary);
+/// The same as a JSON object, with what the angles are by.
+std::string summary_json(const Summary& summary, const vision::MeasureOptions& options);
 
 }  // namespace repose::cli

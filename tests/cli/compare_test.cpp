@@ -70,6 +70,17 @@ TEST_F(Compare, JsonHasTheContractsKeys) {
   EXPECT_TRUE(object["profile_rmse_grains"].is_null());
 }
 
+TEST_F(Compare, BothAnglesAreByTheDefinitionThatIsNamed) {
+  const Finished usual = run({"steep.png", "flat.png", "--json", "-"});
+  EXPECT_EQ(json::parse(usual.out)["definition"], "flank_20_80");
+  const Finished named =
+      run({"steep.png", "flat.png", "--definition", "whole_flank", "--json", "named.json"});
+  EXPECT_THAT(named.out, HasSubstr("all angles by whole_flank"));
+  const json object = json::parse(text_of(path("named.json")));
+  EXPECT_EQ(object["definition"], "whole_flank");
+  EXPECT_NE(object["angle_deg"], json::parse(usual.out)["angle_deg"]);
+}
+
 TEST_F(Compare, OneFileTwiceIsEquivalentWithoutError) {
   const json same = result({"steep.png", "./steep.png"});
   EXPECT_EQ(same["iou"], 1);

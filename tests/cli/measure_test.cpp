@@ -73,6 +73,27 @@ std::size_t letters(const std::string& line) {
 
 using MeasureThreads = Measure;
 
+TEST_F(Measure, EveryResultSaysByWhichDefinitionItIs) {
+  draw_heap_to("a.png");
+  draw_slopes_to("b.png", .4);
+  const Finished usual = run({"a.png", "b.png", "--summary", "usual.json"});
+  EXPECT_THAT(usual.out, Not(HasSubstr("all angles by")));
+  EXPECT_EQ(json::parse(text("usual.json"))["definition"], "flank_20_80");
+  const Finished named =
+      run({"a.png", "b.png", "--definition", "height-over-base", "--summary", "named.json", "--csv",
+           "named.csv", "--json", "all.json", "--report", "page.html"});
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_THAT(named.out, HasSubstr("all angles by height_over_base: crest height"));
+  EXPECT_EQ(json::parse(text("named.json"))["definition"], "height_over_base");
+  EXPECT_THAT(text("named.csv"),
+              AllOf(HasSubstr(",definition\n"), HasSubstr(",height_over_base\n")));
+  EXPECT_EQ(json::parse(text("all.json"))[0]["definition"], "height_over_base");
+  EXPECT_THAT(text("page.html"), HasSubstr("height_over_base: crest height"));
+  const Finished own = run({"a.png", "--window", "0.1,0.9", "--summary", "own.json"});
+  EXPECT_THAT(own.out, HasSubstr("all angles by line at 10-90 % of the height"));
+  EXPECT_TRUE(json::parse(text("own.json"))["definition"].is_null());
+}
+
 TEST_F(Measure, AHeapGivesAnAngle) {
   draw_heap_to("heap.png");
   const Finished result = run({"heap.png"});

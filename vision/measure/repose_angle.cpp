@@ -205,12 +205,6 @@ bool has_usual_window(const MeasureOptions& options) {
   return options.window_from == usual.window_from && options.window_to == usual.window_to;
 }
 
-/// Empty: none of those with a name.
-std::string definition_of(const MeasureOptions& options) {
-  const bool is_named = options.method == Method::automatic && has_usual_window(options);
-  return is_named ? std::string(base::definition_meant(options.definition)) : std::string();
-}
-
 std::array<double, 2> window_of(const MeasureOptions& options) {
   if (base::is_usual_definition(options.definition)) {
     return {options.window_from, options.window_to};
@@ -269,7 +263,7 @@ ReposeAngle described(const SelectedCandidate& choice, const WorkingPicture& wor
   const Reading& best = choice.best;
   ReposeAngle result;
   result.method = options.method;
-  result.definition = definition_of(options);
+  result.definition = options.named_definition();
   result.window = window_of(options);
   result.camera_pitch_rad = options.camera_pitch_rad;
   result.segmentation = best.segmentation.name;
@@ -299,7 +293,7 @@ ReposeAngle described(const SelectedCandidate& choice, const WorkingPicture& wor
 ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
   ReposeAngle result;
   result.method = options.method;
-  result.definition = definition_of(options);
+  result.definition = options.named_definition();
   result.window = window_of(options);
   result.camera_pitch_rad = options.camera_pitch_rad;
   result.reason = fmt::format(
@@ -310,6 +304,20 @@ ReposeAngle too_small(const Picture& picture, const MeasureOptions& options) {
 }
 
 }  // namespace
+
+std::string MeasureOptions::named_definition() const {
+  const bool is_named = method == Method::automatic && has_usual_window(*this);
+  return is_named ? std::string(base::definition_meant(definition)) : std::string();
+}
+
+std::string MeasureOptions::definition_text() const {
+  const std::string name = named_definition();
+  if (name == base::kUsualDefinition.name) return {};
+  if (!name.empty()) return fmt::format("{}: {}", name, base::find_definition(name)->description);
+  return fmt::format("{} at {:.0f}-{:.0f} % of the height",
+                     method == Method::paper ? "the paper's line" : "line", 100 * window_from,
+                     100 * window_to);
+}
 
 std::vector<base::Fault> MeasureOptions::problems() const {
   std::vector<base::Fault> errors;

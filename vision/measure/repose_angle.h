@@ -59,6 +59,12 @@ struct MeasureOptions {
   /// that advise to.
   base::FieldNames names = {};
 
+  /// Of base/angle_definition.h, what the angle is by; empty: none of these, for the window is
+  /// one's own or the method another.
+  std::string named_definition() const;
+  /// That in words, for results that are not by the usual one: "height_over_base: crest height over
+  /// ...", "line at 10-90 % of the height". Empty: the usual one.
+  std::string definition_text() const;
   /// Empty when usable; else each fault.
   std::vector<base::Fault> problems() const;
   /// The same for what cannot be meant in a picture of that size.

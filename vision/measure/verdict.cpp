@@ -463,9 +463,10 @@ void judge(ReposeAngle& result, const SelectedCandidate& choice, const MeasureOp
   }
   const std::optional<ShownFlanks> shown = shown_flanks(choice, options);
   if (!shown) {
-    refuse(result, fmt::format("{} is not defined here: a side's foot or crest is not seen. Fix: "
-                               "show the whole heap, or measure by {}.",
-                               options.definition, base::kUsualDefinition.name));
+    refuse(result,
+           fmt::format("there is no angle by {}: a foot is hidden, or too little of a flank "
+                       "is seen. Fix: show the whole heap, larger, or measure by {}.",
+                       options.definition, base::kUsualDefinition.name));
     result.outline_valid = true;
     return;
   }
