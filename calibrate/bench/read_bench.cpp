@@ -15,6 +15,7 @@
 #include "calibrate/bench/batch.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/picture_set.h"
+#include "calibrate/experiment/scan_angle.h"
 #include "dem/experiment/experiment_table.h"
 #include "vision/files/file_list.h"
 #include "vision/files/heap_file.h"
@@ -59,38 +60,34 @@ std::vector<SheetReadings> read_all_sheets(const dem::Study& study, NoRows no_ro
   }
 }
 
-/// A picture, or a film of a heap, as it was measured.
+PictureReading reading_of(const fs::path& file, const vision::ReposeAngle& angle) {
+  const SetPicture picture = set_picture_of(angle);
+  return {.file = fs::absolute(file),
+          .status = name_of(angle.status),
+          .angle_deg = picture.angle_deg,
+          .reason = angle.reason,
+          .own_deg = picture.own_deg,
+          .camera_deg = picture.camera_deg};
+}
+
+/// A picture, a film or a scan of a heap, as it was measured.
 struct MeasuredFile {
   fs::path file;
-  std::string pixels;  ///< a fingerprint of the picture's; empty: a film
+  std::string pixels;  ///< a fingerprint of the picture's; empty: no picture
   PictureReading reading;
 };
 
 MeasuredFile measured_file(const fs::path& file, const std::string& definition) {
-  if (vision::has_scan_ending(file)) {
-    throw base::InputError(
-        {.where = file.string(),
-         .value =
-             "is a three-dimensional scan, whose angle is a mean of slices; simulated heaps are "
-             "read in silhouettes, as pictures are, which show another one",
-         .fix = "use photographs of the heaps; or measure the scans with repose measure and give "
-                "their angles as values, knowing of that difference."});
-  }
   vision::PictureSettings told;
   told.measuring.definition = definition;
+  if (vision::has_scan_ending(file)) {
+    const ScanViews seen = measure_scan_file(file, told.measuring);
+    return {.file = file, .pixels = {}, .reading = reading_of(file, seen.angle)};
+  }
   const vision::HeapInFile seen = vision::measure_heap_file(file, told);
-  const vision::ReposeAngle& angle = seen.heap.angle;
-  PictureReading reading{.file = fs::absolute(file),
-                         .status = name_of(angle.status),
-                         .angle_deg = {},
-                         .reason = angle.reason};
-  const SetPicture picture = set_picture_of(angle);
-  reading.angle_deg = picture.angle_deg;
-  reading.own_deg = picture.own_deg;
-  reading.camera_deg = picture.camera_deg;
   return {.file = file,
           .pixels = seen.is_film ? std::string() : vision::pixels_of(seen.picture),
-          .reading = std::move(reading)};
+          .reading = reading_of(file, seen.heap.angle)};
 }
 
 /// What to know about a picture that is not quite as it should be.
@@ -163,15 +160,44 @@ void note_outliers(const std::vector<PictureReading>& pictures, std::vector<std:
   }
 }
 
+/// Files of heaps that the bench names.
+vision::FileList listed(const dem::Measured& bench) {
+  if (!bench.scans.empty()) return vision::list_scans(names_of(bench.scans));
+  if (!bench.videos.empty()) return vision::list_films(names_of(bench.videos));
+  return vision::list_pictures_and_films(names_of(bench.pictures));
+}
+
+/// Scans are no pictures, nor has a camera of theirs a place.
+void check_medium(const dem::Study& study, const dem::StudyExperiment& described,
+                  const std::vector<fs::path>& files, base::Faults& faults) {
+  const bool is_scanned = !described.measured.scans.empty();
+  for (const fs::path& file : files) {
+    if (vision::has_scan_ending(file) == is_scanned) continue;
+    faults.add(
+        {.where = file.string(),
+         .value = is_scanned ? "is no three-dimensional scan" : "is a three-dimensional scan",
+         .fix = is_scanned ? "name pictures and films in a study that has pictures = [...]."
+                           : "write measured = { scans = [...] }, and no pictures there."});
+  }
+  const dem::ExperimentEntry& entry = dem::entry_of(described.protocol);
+  faults.require(
+      !is_scanned || entry.camera == nullptr || !entry.camera(described.protocol),
+      {.where = study.file.string(),
+       .value = "has scans and a camera's distance",
+       .rule =
+           "scans are read in silhouettes as from far away, and so are heaps simulated for them",
+       .fix = fmt::format("take camera_distance_mm and camera_height_mm out of [experiment.{}].",
+                          entry.name)});
+}
+
 std::vector<PictureReading> measure_heaps(const dem::Study& study, Findings& findings) {
   const auto heap = study.experiments.find(&dem::pictured_experiment());
   if (heap == study.experiments.end()) return {};
   const dem::Measured& bench = heap->second.measured;
-  if (bench.pictures.empty() && bench.videos.empty()) return {};
-  const std::vector<fs::path> files =
-      files_of(bench.videos.empty() ? vision::list_pictures_and_films(names_of(bench.pictures))
-                                    : vision::list_films(names_of(bench.videos)),
-               findings);
+  if (!bench.is_seen()) return {};
+  const std::vector<fs::path> files = files_of(listed(bench), findings);
+  check_medium(study, heap->second, files, findings.faults);
+  if (!findings.faults.empty()) return {};
   const auto heaps = heaps_named(bench, findings.faults);
   std::vector<PictureReading> pictures =
       measured_once(files, heaps, heap->second.definition, findings);
@@ -183,7 +209,9 @@ std::vector<PictureReading> measure_heaps(const dem::Study& study, Findings& fin
       any || !findings.faults.empty(),
       {.where = study.file.string(),
        .value = fmt::format("none of the {} {} of the heap could be measured", files.size(),
-                            bench.videos.empty() ? "pictures" : "films"),
+                            !bench.scans.empty()    ? "scans"
+                            : !bench.videos.empty() ? "films"
+                                                    : "pictures"),
        .fix = "check them with repose measure --overlay, or give the angles as values."});
   return pictures;
 }

@@ -1,11 +1,7 @@
 #include "calibrate/particles/positions_angle.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
-#include <numbers>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,7 +12,7 @@
 #include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
-#include "calibrate/statistics/summary.h"
+#include "calibrate/experiment/view_mean.h"
 #include "dem/state/state_file.h"
 #include "render/renderer.h"
 #include "render/scene/extent.h"
@@ -57,141 +53,16 @@ PositionsFile state_in(const fs::path& file, const PositionsOptions& options) {
   return found;
 }
 
-using Views = std::span<const PositionsView>;
-
-bool counts(const PositionsView& view) {
-  return counts_in_mean(view.angle.status) && view.angle.angle_rad.has_value();
-}
-
-/// Mean and Student's half-width of what the views have of a number; none of none.
-template <typename Number>
-std::optional<Summary> summary_of(Views views, const Number& number) {
-  std::vector<double> values;
-  for (const PositionsView& view : views) {
-    if (!counts(view)) continue;
-    if (const std::optional<double> value = number(view.angle)) values.push_back(*value);
-  }
-  if (values.empty()) return std::nullopt;
-  return summarise(values);
-}
-
-template <typename Number>
-std::optional<double> mean_of(Views views, const Number& number) {
-  const auto summary = summary_of(views, number);
-  return summary ? std::optional(summary->mean) : std::nullopt;
-}
-
-/// The median of the views' own half-widths, and Student's of their mean, as two parts.
-double half_width(const Summary& summary, std::vector<double> own) {
-  double common = 0;
-  if (!own.empty()) {
-    const auto middle = own.begin() + static_cast<std::ptrdiff_t>(own.size() / 2);
-    std::nth_element(own.begin(), middle, own.end());
-    common = *middle;
-  }
-  return std::hypot(summary.mean_uncertainty.value_or(0), common);
-}
-
-template <typename Number>
-std::vector<double> all_of(Views views, const Number& number) {
-  std::vector<double> values;
-  for (const PositionsView& view : views) {
-    if (!counts(view)) continue;
-    if (const std::optional<double> value = number(view.angle)) values.push_back(*value);
-  }
-  return values;
-}
-
-vision::Flank flank_of(Views views, vision::Flank vision::ReposeAngle::*side) {
-  const auto angle = [side](const vision::ReposeAngle& one) { return (one.*side).angle_rad; };
-  const auto own = [side](const vision::ReposeAngle& one) { return (one.*side).uncertainty_rad; };
-  vision::Flank flank;
-  const auto summary = summary_of(views, angle);
-  if (!summary) {
-    flank.reason = "no view has it";
-    return flank;
-  }
-  flank.status = vision::FlankStatus::ok;
-  flank.angle_rad = summary->mean;
-  flank.uncertainty_rad = half_width(*summary, all_of(views, own));
-  flank.least_squares_rad = mean_of(
-      views, [side](const vision::ReposeAngle& one) { return (one.*side).least_squares_rad; });
-  flank.robust_rad =
-      mean_of(views, [side](const vision::ReposeAngle& one) { return (one.*side).robust_rad; });
-  flank.r2 = mean_of(views, [side](const vision::ReposeAngle& one) { return (one.*side).r2; });
-  flank.bend_rad =
-      mean_of(views, [side](const vision::ReposeAngle& one) { return (one.*side).bend_rad; });
-  for (const PositionsView& view : views) {
-    if (counts(view)) flank.points += (view.angle.*side).points;
-  }
-  return flank;
-}
-
-/// What the views warn of, each once, with the number of views that do.
-std::vector<vision::Warning> warnings_of(Views views) {
-  std::vector<vision::Warning> warnings;
-  std::map<std::string, int> number;
-  for (const PositionsView& view : views) {
-    if (!counts(view)) continue;
-    for (const vision::Warning& warning : view.angle.warnings) {
-      if (++number[warning.code] == 1) warnings.push_back(warning);
-    }
-  }
-  for (vision::Warning& warning : warnings) {
-    warning.message =
-        fmt::format("In {} of {} views: {}", number[warning.code], views.size(), warning.message);
-  }
-  return warnings;
-}
-
-void add_definitions(Views views, vision::ReposeAngle& heap) {
-  for (const PositionsView& first : views) {
-    for (const vision::NamedAngle& named : first.angle.definitions) {
-      const auto is_same = [&](const vision::NamedAngle& one) { return one.name == named.name; };
-      if (std::ranges::any_of(heap.definitions, is_same)) continue;
-      const auto angle = summary_of(views, [&](const vision::ReposeAngle& one) {
-        const auto found = std::ranges::find_if(one.definitions, is_same);
-        return found == one.definitions.end() ? std::nullopt : std::optional(found->angle_rad);
-      });
-      if (!angle || 2 * static_cast<std::size_t>(angle->n) < views.size()) continue;
-      heap.definitions.push_back(
-          {.name = named.name, .description = named.description, .angle_rad = angle->mean});
-    }
-  }
-}
-
-void judge(Views views, const StandingHeap& standing, vision::ReposeAngle& heap) {
-  int flagged = 0, refused = 0;
-  std::string why;
-  for (const PositionsView& view : views) {
-    if (!counts(view)) {
-      ++refused;
-      if (why.empty()) why = view.angle.reason;
-    } else if (view.angle.status == vision::MeasureStatus::flagged) {
-      ++flagged;
-    }
-  }
-  const auto count = static_cast<int>(views.size());
-  if (2 * refused > count) {
-    vision::ReposeAngle none;
-    none.reason = fmt::format("{} of {} views give no angle; the first: {}", refused, count, why);
-    none.window = heap.window;
-    none.method = heap.method;
-    heap = std::move(none);
-    return;
-  }
-  heap.warnings = warnings_of(views);
-  if (refused > 0) {
-    heap.warnings.push_back({.code = "views_refused",
-                             .message = fmt::format("{} of {} views give no angle; the first: {}",
-                                                    refused, count, why)});
-  }
+/// What the places say against the heap, beside its views.
+void judge(const StandingHeap& standing, vision::ReposeAngle& heap) {
+  if (heap.status == vision::MeasureStatus::refused) return;
   if (standing.in_the_air > 0) {
     heap.warnings.push_back(
         {.code = "in_the_air",
          .message = fmt::format("{} particles touch neither the heap nor the plate and are left "
                                 "out: the heap may not be at rest. Take a later time step.",
                                 standing.in_the_air)});
+    heap.status = vision::MeasureStatus::flagged;
   }
   constexpr double kUsual_percent = 10;
   if (standing.deep_percent > kUsual_percent) {
@@ -202,55 +73,8 @@ void judge(Views views, const StandingHeap& standing, vision::ReposeAngle& heap)
                          "of a radius. Fine for clumps without a column clump; else the "
                          "column of radii may hold diameters.",
                          standing.deep_percent)});
+    heap.status = vision::MeasureStatus::flagged;
   }
-  constexpr double kWide_rad = 5 * kDegree;
-  const bool is_wide = heap.uncertainty_rad.value_or(0) > kWide_rad;
-  if (is_wide) {
-    heap.warnings.push_back(
-        {.code = "wide_interval",
-         .message = fmt::format("The angle is uncertain by ±{:.1f} degrees: look at the views; a "
-                                "heap that is not round in plan has no single angle.",
-                                to_degrees(*heap.uncertainty_rad))});
-  }
-  const bool is_flagged = is_wide || 2 * flagged >= count - refused || standing.in_the_air > 0 ||
-                          standing.deep_percent > kUsual_percent;
-  heap.status = is_flagged ? vision::MeasureStatus::flagged : vision::MeasureStatus::ok;
-}
-
-vision::ReposeAngle heap_of(Views views, const StandingHeap& standing) {
-  vision::ReposeAngle heap;
-  heap.definition = views.front().angle.definition;
-  heap.window = views.front().angle.window;
-  heap.method = views.front().angle.method;
-  heap.segmentation = views.front().angle.segmentation;
-  const auto angle =
-      summary_of(views, [](const vision::ReposeAngle& one) { return one.angle_rad; });
-  if (angle) {
-    heap.angle_rad = angle->mean;
-    heap.uncertainty_rad = half_width(*angle, all_of(views, [](const vision::ReposeAngle& one) {
-      return one.own_uncertainty_rad ? one.own_uncertainty_rad : one.uncertainty_rad;
-    }));
-    heap.own_uncertainty_rad = heap.uncertainty_rad;
-    heap.camera_uncertainty_rad = 0;
-  }
-  heap.left = flank_of(views, &vision::ReposeAngle::left);
-  heap.right = flank_of(views, &vision::ReposeAngle::right);
-  const auto mean = [&](std::optional<double> vision::ReposeAngle::*number) {
-    return mean_of(views, [number](const vision::ReposeAngle& one) { return one.*number; });
-  };
-  heap.ground_tilt_rad = mean(&vision::ReposeAngle::ground_tilt_rad);
-  heap.height_px = mean(&vision::ReposeAngle::height_px);
-  heap.base_px = mean(&vision::ReposeAngle::base_px);
-  heap.grain_px = mean(&vision::ReposeAngle::grain_px);
-  heap.confidence = mean_of(views, [](const vision::ReposeAngle& one) {
-                      return std::optional(one.confidence);
-                    }).value_or(0);
-  for (const PositionsView& view : views) {
-    heap.loose_particles = std::max(heap.loose_particles, view.angle.loose_particles);
-  }
-  add_definitions(views, heap);
-  judge(views, standing, heap);
-  return heap;
 }
 
 /// The scale of drawn views is exact; sizes scatter between them.
@@ -264,8 +88,7 @@ vision::HeapSizes sizes_of(const MeasuredPositions& measured) {
   sizes.mm_per_px = vision::Estimate{.value = measured.mm_per_px, .uncertainty = 0};
   const auto length =
       [&](std::optional<double> vision::ReposeAngle::*pixels) -> std::optional<vision::Estimate> {
-    const auto found = summary_of(measured.views,
-                                  [pixels](const vision::ReposeAngle& one) { return one.*pixels; });
+    const auto found = summary_of_views(measured.views, pixels);
     if (!found) return std::nullopt;
     // An edge is drawn within half a pixel.
     const double edge_px = std::hypot(found->mean_uncertainty.value_or(0), .5);
@@ -321,7 +144,7 @@ MeasuredPositions measure_positions(const fs::path& file, const PositionsOptions
                                     const vision::MeasureOptions& measuring,
                                     const std::function<void(double fraction)>& report) {
   MeasuredPositions measured{.file = read_positions(file, options),
-                             .views = std::vector<PositionsView>(kHeapViews),
+                             .views = std::vector<vision::ReposeAngle>(kHeapViews),
                              .first_picture = {},
                              .between_views_rad = {},
                              .angle = {},
@@ -334,23 +157,21 @@ MeasuredPositions measure_positions(const fs::path& file, const PositionsOptions
   std::atomic<int> done = 0;
   tbb::parallel_for(0, kHeapViews, [&](int view) {
     TakenView taken = session.take(renderers.local(), view, measuring);
-    PositionsView& kept = measured.views[static_cast<std::size_t>(view)];
-    kept.azimuth_rad = std::numbers::pi * view / kHeapViews;
-    kept.angle = std::move(taken.angle);
+    vision::ReposeAngle& kept = measured.views[static_cast<std::size_t>(view)];
+    kept = std::move(taken.angle);
     if (view == 0) {
       measured.first_picture = std::move(taken.picture);
     } else {
-      kept.angle.outline = {};
-      kept.angle.upper_edge = {};
-      kept.angle.left.edge = {};
-      kept.angle.right.edge = {};
+      kept.outline = {};
+      kept.upper_edge = {};
+      kept.left.edge = {};
+      kept.right.edge = {};
     }
     if (report) report(static_cast<double>(++done) / kHeapViews);
   });
-  const auto angle =
-      summary_of(measured.views, [](const vision::ReposeAngle& one) { return one.angle_rad; });
-  if (angle) measured.between_views_rad = angle->sd;
-  measured.angle = heap_of(measured.views, measured.file.heap);
+  measured.between_views_rad = sd_between_views(measured.views);
+  measured.angle = mean_of_views(measured.views);
+  judge(measured.file.heap, measured.angle);
   if (measured.file.heap.has_unit) measured.mm_per_px = kMmPerM * session.m_per_px();
   measured.sizes = sizes_of(measured);
   return measured;

@@ -48,21 +48,13 @@ struct PositionsFile {
 ///   not need.
 PositionsFile read_positions(const std::filesystem::path& file, const PositionsOptions& options);
 
-/// One view of it.
-struct PositionsView {
-  double azimuth_rad = 0;
-  vision::ReposeAngle angle;  ///< without outline and edges, but for the first view
-};
-
 struct MeasuredPositions {
   PositionsFile file;
-  std::vector<PositionsView> views;
+  /// From sides equally spaced over half a turn; without outline and edges, but for the first.
+  std::vector<vision::ReposeAngle> views;
   vision::Picture first_picture;            ///< the first view's
   std::optional<double> between_views_rad;  ///< standard deviation
-  /// The heap's: means of the views. The half-width of its 95 % interval is the root of the sum of
-  /// squares of Student's of the views' mean and of the median of the views' own, which all views
-  /// may have in common. Refused where fewer than half of the views give an angle; flagged where
-  /// half of those that do are, or where particles hang in the air.
+  /// As mean_of_views(); flagged, too, where particles hang in the air or overlap deeply.
   vision::ReposeAngle angle;
   double mm_per_px = 0;  ///< 0: no unit is known
   vision::HeapSizes sizes;

@@ -12,6 +12,7 @@
 #include "base/input_error.h"
 #include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
+#include "calibrate/experiment/scan_angle.h"
 #include "calibrate/report/document.h"
 #include "calibrate/report/heap_model.h"
 #include "calibrate/report/picture_data.h"
@@ -24,6 +25,7 @@
 #include "vision/drawing/overlay.h"
 #include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
+#include "vision/scan/scan_file.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -81,7 +83,14 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
     given.measuring.definition = definition;
     const auto [told, scale] = vision::with_saved_hints(given, picture.file);
     vision::SizedHeap sized;
-    if (vision::has_film_ending(picture.file)) {
+    std::optional<double> angle_rad;
+    if (vision::has_scan_ending(picture.file)) {
+      ScanViews seen = measure_scan_file(picture.file, told);
+      heap.title += ", one of its views";
+      heap.picture = std::move(seen.typical_picture);
+      sized.angle = std::move(seen.views[seen.typical]);
+      angle_rad = seen.angle.angle_rad;
+    } else if (vision::has_film_ending(picture.file)) {
       vision::FilmAngle film = vision::measure_film(picture.file, told, scale);
       heap.picture = std::move(film.picture);
       sized = std::move(film.heap);
@@ -91,10 +100,10 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
     }
     if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
     heap.angle = std::move(sized.angle);
+    if (!angle_rad) angle_rad = heap.angle.angle_rad;
     constexpr double kSame_deg = 0.01;
-    const auto now_rad = heap.angle.angle_rad;
     const bool is_same =
-        now_rad && std::abs(*now_rad / kDegree - picture.angle_deg.value_or(0)) <= kSame_deg;
+        angle_rad && std::abs(*angle_rad / kDegree - picture.angle_deg.value_or(0)) <= kSame_deg;
     if (picture.angle_deg && !is_same) {
       remarks.push_back(
           fmt::format("{} gave {}° when the study was made, but not now: the file or the program "
@@ -133,12 +142,16 @@ std::optional<std::size_t> most_typical(const std::vector<MeasuredHeap>& heaps) 
 /// The photographs; returns the one that stands for them.
 std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPictures& shown) {
   const int side_px = longest_side_px(study.pictures.size());
+  shown.is_scanned = std::ranges::any_of(study.pictures, [](const PictureReading& picture) {
+    return vision::has_scan_ending(picture.file);
+  });
   std::vector<MeasuredHeap> heaps;
   for (const PictureReading& picture : study.pictures) {
     std::optional<MeasuredHeap> heap =
         measured_photograph(picture, shown.definition, shown.remarks);
     if (!heap) continue;
-    shown.photographs.push_back(with_overlay(*heap, side_px, "Photograph"));
+    shown.photographs.push_back(
+        with_overlay(*heap, side_px, shown.is_scanned ? "Scan" : "Photograph"));
     heaps.push_back(*std::move(heap));
   }
   shown.best_photograph = most_typical(heaps);
@@ -186,7 +199,7 @@ ShownPicture camera_look(const render::Scene& scene, const dem::LevelCamera& cam
 
 Table comparison_table(const vision::HeapComparison& comparison) {
   Table table{.name = "outline_comparison",
-              .title = "Photograph and simulation, scaled to the same silhouette area",
+              .title = "Bench and simulation, scaled to the same silhouette area",
               .data = {.columns = {{.name = "quantity", .unit = {}},
                                    {.name = "value", .unit = {}, .decimals = 3}},
                        .rows = {}}};
@@ -197,7 +210,7 @@ Table comparison_table(const vision::HeapComparison& comparison) {
   add("root mean square difference in height [√area]", comparison.profile_rmse);
   add("Hausdorff distance of the outlines [√area]", comparison.hausdorff);
   if (comparison.angle) {
-    add("difference of the angles, photograph − simulation [°]",
+    add("difference of the angles, bench − simulation [°]",
         comparison.angle->difference_rad / kDegree);
     add("95 % interval from [°]", comparison.angle->interval_rad[0] / kDegree);
     add("95 % interval to [°]", comparison.angle->interval_rad[1] / kDegree);
@@ -211,9 +224,9 @@ Chart outline_chart(const vision::HeapComparison& comparison) {
       plane_chart("outlines", "Superimposed outlines", {.name = "along the ground", .unit = unit},
                   {.name = "height", .unit = unit});
   chart.caption =
-      "Aligned by ground line and axis. Solid: photograph; dashed: simulation. Single grains may "
+      "Aligned by ground line and axis. Solid: bench; dashed: simulation. Single grains may "
       "differ; slopes should not.";
-  const std::array<std::string, 2> names = {"photograph", "simulation"};
+  const std::array<std::string, 2> names = {"bench", "simulation"};
   for (std::size_t k = 0; k < names.size(); ++k) {
     // More points than a page is wide show nothing more.
     constexpr std::size_t kMaxPoints = 600;
@@ -232,8 +245,7 @@ void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, Heap
   const vision::HeapComparison comparison =
       vision::compare_heaps(photograph.angle, simulated.angle, options);
   if (comparison.status == vision::MeasureStatus::refused) {
-    shown.remarks.push_back("Photograph and simulation could not be compared: " +
-                            comparison.reason);
+    shown.remarks.push_back("Bench and simulation could not be compared: " + comparison.reason);
     return;
   }
   const vision::ComparisonOverlayNotes notes{.titles = {photograph.title, "simulation"},
@@ -333,13 +345,15 @@ Chapter heap_chapter(const HeapPictures& pictures) {
       "{}: on each side {}; the angle of repose is the mean of both sides, relative to the ground "
       "line ({}). The measurement is drawn in; ± is the half-width of the 95 % interval.",
       pictures.photographs.empty() ? "How the pictures of the simulation are measured"
-      : pictures.renders.empty()   ? "How the photographs are measured"
-                                   : "Photographs and pictures of the simulation are measured by "
-                                     "the same program in the same way",
+      : pictures.is_scanned      ? "Silhouettes of scans and of the simulation are measured by the "
+                                   "same program in the same way"
+      : pictures.renders.empty() ? "How the photographs are measured"
+                                 : "Photographs and pictures of the simulation are measured by "
+                                   "the same program in the same way",
       definition.description, definition.name)});
   if (!pictures.photographs.empty()) {
     const std::size_t count = pictures.photographs.size();
-    chapter.blocks.push_back(Heading{"Photographs"});
+    chapter.blocks.push_back(Heading{pictures.is_scanned ? "Scans" : "Photographs"});
     chapter.blocks.push_back(photographs_between(pictures, 0, kFewPhotographs));
     if (count > kFewPhotographs) {
       chapter.blocks.push_back(

@@ -12,7 +12,8 @@ namespace repose::calibrate::report {
 /// Everything that is seen of the heaps: photographs measured again, the simulated heap drawn and
 /// measured in the same way, and both outlines.
 struct HeapPictures {
-  std::vector<ShownPicture> photographs;       ///< with what was measured
+  std::vector<ShownPicture> photographs;       ///< of the bench, with what was measured
+  bool is_scanned = false;                     ///< they are silhouettes of scans
   std::optional<std::size_t> best_photograph;  ///< one that counted: see heap_pictures
 
   std::vector<ShownPicture> renders;  ///< silhouettes, with what was measured

@@ -149,7 +149,9 @@ std::string measured_text(const StudyRecord& record, const dem::ExperimentEntry&
                           const dem::Measured& measured) {
   const std::size_t pictures = entry.is_pictured ? record.measurement.pictures.size() : 0;
   if (pictures > 0) {
-    const char* kind = measured.videos.empty() ? "photograph" : "film";
+    const char* kind = !measured.scans.empty()    ? "scan"
+                       : !measured.videos.empty() ? "film"
+                                                  : "photograph";
     const std::string heaps =
         measured.within_heaps ? fmt::format("{} heaps", measured.values.size()) : "heaps";
     return fmt::format("{} {}{} of {}", pictures, kind, pictures == 1 ? "" : "s", heaps);

@@ -9,6 +9,7 @@
 #include "base/distributions.h"
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
+#include "vision/scan/scan_file.h"
 
 /// Formulas: calibrate/fit/THEORY.md, dem/THEORY.md and vision/measure/repose_angle.h, which name
 /// their sources and the tests that prove them.
@@ -264,12 +265,21 @@ void add_simulation(const Provenance& provenance, Methods& methods) {
       shortened(rolling_text(model.rolling_definition), 400), stiffness_text(model)));
 }
 
-void add_angle(bool has_photographs, Methods& methods) {
+std::string seen_in(const ReportedStudy& study) {
+  if (study.pictures.empty()) return "";
+  const auto is_scan = [](const PictureReading& picture) {
+    return vision::has_scan_ending(picture.file);
+  };
+  return std::ranges::any_of(study.pictures, is_scan) ? "silhouettes of scans" : "photographs";
+}
+
+/// @param bench  in what its heaps were seen; empty: their angles were given
+void add_angle(const std::string& bench, Methods& methods) {
   methods.add(fmt::format(
       "The angle of repose was measured in {}silhouettes of the simulated heaps{}: on each side a "
       "straight line was fitted to the heap's edge between 20 and 80 % of its height, and the "
       "angle is the mean of both sides' angles to the ground line,",
-      has_photographs ? "photographs and in " : "", has_photographs ? " by the same program" : ""));
+      bench.empty() ? "" : bench + " and in ", bench.empty() ? "" : " by the same program"));
   methods.add_equation("θ = (θ_left + θ_right) / 2",
                        "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})");
 }
@@ -357,7 +367,7 @@ void add_paper_way(Methods& methods) {
 Chapter methods_chapter(const ReportedStudy& study, const StudyResult& result) {
   Methods methods;
   add_simulation(result.provenance, methods);
-  if (has_heap(result)) add_angle(!study.pictures.empty(), methods);
+  if (has_heap(result)) add_angle(seen_in(study), methods);
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     add_joint_fit(*joint, methods);
   } else {

@@ -18,11 +18,13 @@
 #include "base/fingerprint.h"
 #include "base/input_error.h"
 #include "base/units.h"
+#include "calibrate/experiment/scan_angle.h"
 #include "calibrate/particles/positions_angle.h"
 #include "calibrate/runs/table_columns.h"
 #include "vision/files/file_list.h"
 #include "vision/files/heap_file.h"
 #include "vision/film/film_angle.h"
+#include "vision/scan/scan_file.h"
 
 namespace repose::calibrate {
 namespace {
@@ -48,7 +50,7 @@ bool names_file(const std::string& cell, const fs::path& folder) {
   if (number_of(cell)) return false;
   const std::string small = in_small_letters(cell);
   if (is_nothing(small) || says_failed(small)) return false;
-  return is_picture(cell) || is_particle_file(folder / cell);
+  return is_picture(cell) || vision::has_scan_ending(cell) || is_particle_file(folder / cell);
 }
 
 void measure(Cell& cell, const fs::path& folder, const PicturedReading& how) {
@@ -59,6 +61,8 @@ void measure(Cell& cell, const fs::path& folder, const PicturedReading& how) {
     cell.fingerprint = base::fingerprint({base::read_whole_file(file)});
     if (is_picture(file)) {
       cell.angle = vision::measure_heap_file(file, told).heap.angle;
+    } else if (vision::has_scan_ending(file)) {
+      cell.angle = measure_scan_file(file, told.measuring).angle;
     } else {
       const PositionsOptions options{.reading = {}, .placement = how.placement};
       cell.angle = measure_positions(file, options, told.measuring).angle;
@@ -142,7 +146,7 @@ class Reading {
     const std::size_t all = sds_.size() + refused_.size();
     if (all == 0) return;
     std::string text =
-        fmt::format("{}: {}: {} of {} pictures and files of particles gave an angle, by {}",
+        fmt::format("{}: {}: {} of {} pictures, scans and files of particles gave an angle, by {}",
                     table_.name, name_, sds_.size(), all, base::definition_meant(definition_));
     if (!sds_.empty()) {
       const auto [low, high] = std::ranges::minmax(sds_);

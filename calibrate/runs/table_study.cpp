@@ -181,7 +181,7 @@ class Reader {
 
   /// One way of saying it, and only one.
   void check_ways(Section& measured) {
-    for (const char* key : {"pictures", "videos"}) {
+    for (const char* key : {"pictures", "videos", "scans"}) {
       const ConfigValue* found = measured.value(key);
       if (found == nullptr) continue;
       measured.wrong(*found, "in a study of a table of runs a measured number",

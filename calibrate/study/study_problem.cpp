@@ -382,8 +382,7 @@ class StudyProblemBuilder {
 bool is_definition_assumed(const dem::ExperimentEntry& entry,
                            const dem::StudyExperiment& described) {
   const dem::Measured& measured = described.measured;
-  const bool is_ours =
-      !measured.pictures.empty() || !measured.videos.empty() || measured.sheet.has_value();
+  const bool is_ours = measured.is_seen() || measured.sheet.has_value();
   const bool is_told = measured.mean.has_value() || !measured.values.empty();
   return entry.is_pictured && described.definition.empty() && is_told && !is_ours;
 }

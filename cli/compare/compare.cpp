@@ -14,20 +14,23 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include "base/distributions.h"
 #include "base/input_error.h"
+#include "base/units.h"
 #include "calibrate/experiment/heap_angle.h"
+#include "calibrate/experiment/scan_angle.h"
+#include "calibrate/particles/positions_angle.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/terminal.h"
 #include "cli/compare/compare_json.h"
 #include "cli/compare/compare_options.h"
 #include "cli/compare/compare_table.h"
-#include "dem/state/state_file.h"
-#include "render/scene/scene.h"
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/drawing/heap_sets_figure.h"
 #include "vision/files/file_list.h"
 #include "vision/hints/hint_file.h"
+#include "vision/scan/scan_file.h"
 
 namespace repose::cli {
 
@@ -52,9 +55,10 @@ struct Work {
   std::vector<std::string> errors;
 };
 
-void add_pictures(const ComparePlan& plan, std::size_t set, Work& work) {
+/// Pictures, or scans, whose views are drawn when they are read.
+void add_files(const ComparePlan& plan, std::size_t set, Work& work) {
   const std::optional<vision::PictureScale>& scale = plan.comparing.scale[set];
-  for (std::size_t heap = 0; heap < plan.sources[set].pictures.size(); ++heap) {
+  for (std::size_t heap = 0; heap < plan.sources[set].files.size(); ++heap) {
     SeenHeap seen{.views = std::vector<vision::ReposeAngle>(1), .m_per_px = {}};
     if (scale) seen.m_per_px = scale->length_m;
     work.sets[set].push_back(std::move(seen));
@@ -63,15 +67,15 @@ void add_pictures(const ComparePlan& plan, std::size_t set, Work& work) {
   }
 }
 
-void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
-  const std::vector<std::filesystem::path>& states = plan.sources[set].states;
-  for (std::size_t heap = 0; heap < states.size(); ++heap) {
+void add_simulated(const ComparePlan& plan, std::size_t set, Work& work) {
+  const std::vector<std::filesystem::path>& files = plan.sources[set].files;
+  for (std::size_t heap = 0; heap < files.size(); ++heap) {
     try {
       work.sessions.push_back(std::make_unique<calibrate::HeapViewSession>(
-          render::scene_of(dem::read_state(states[heap])),
+          calibrate::read_positions(files[heap], {}).heap.scene,
           calibrate::HeapViewing{.camera = plan.camera}));
     } catch (const base::InputError& error) {
-      work.errors.push_back(naming_file(states[heap].string(), error.what()));
+      work.errors.push_back(naming_file(files[heap].string(), error.what()));
       continue;
     }
     const calibrate::HeapViewSession& session = *work.sessions.back();
@@ -84,14 +88,23 @@ void add_states(const ComparePlan& plan, std::size_t set, Work& work) {
   }
 }
 
-/// Of a photograph with a saved scale, that too.
-vision::ReposeAngle measured(const ComparePlan& plan, const Task& task, render::Renderer* renderer,
-                             SeenHeap& seen, Work& work) {
+/// A view of a simulated heap, all views of a scan, or a photograph; of that with a saved scale the
+/// scale, too.
+void measure(const ComparePlan& plan, const Task& task, render::Renderer* renderer, SeenHeap& seen,
+             Work& work) {
   const vision::MeasureOptions& options = plan.measuring[task.set];
   if (task.session != nullptr) {
-    return task.session->take(*renderer, static_cast<int>(task.view), options).angle;
+    seen.views[task.view] =
+        task.session->take(*renderer, static_cast<int>(task.view), options).angle;
+    return;
   }
-  const std::filesystem::path& file = plan.sources[task.set].pictures[task.heap];
+  const HeapSource& source = plan.sources[task.set];
+  const std::filesystem::path& file = source.files[task.heap];
+  if (source.kind == HeapSource::Kind::scans) {
+    calibrate::ScanViews scan = calibrate::measure_scan_file(file, options);
+    seen = {.views = std::move(scan.views), .m_per_px = scan.m_per_px};
+    return;
+  }
   const vision::Picture picture = vision::read_picture(file);
   work.pixels[task.set][task.heap] = vision::pixels_of(picture);
   const vision::PictureSettings told =
@@ -100,7 +113,7 @@ vision::ReposeAngle measured(const ComparePlan& plan, const Task& task, render::
   if (!seen.m_per_px && heap.sizes.mm_per_px) {
     seen.m_per_px = heap.sizes.mm_per_px->value / 1000;
   }
-  return std::move(heap.angle);
+  seen.views.front() = std::move(heap.angle);
 }
 
 void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupted, Work& work) {
@@ -114,13 +127,9 @@ void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupte
     try {
       std::unique_ptr<render::Renderer>& renderer = renderers.local();
       if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
-      SeenHeap& seen = work.sets[task.set][task.heap];
-      vision::ReposeAngle& angle = seen.views[task.view];
-      angle = measured(plan, task, renderer.get(), seen, work);
+      measure(plan, task, renderer.get(), work.sets[task.set][task.heap], work);
     } catch (const base::InputError& error) {
-      const HeapSource& source = plan.sources[task.set];
-      const auto& files = task.session != nullptr ? source.states : source.pictures;
-      errors[i] = naming_file(files[task.heap].string(),
+      errors[i] = naming_file(plan.sources[task.set].files[task.heap].string(),
                               base::text_of(error.faults(), kCompareFields[task.set]));
     }
     progress.advance();
@@ -130,22 +139,17 @@ void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupte
   }
 }
 
-/// The files of a set.
-std::vector<std::filesystem::path>& files_of(HeapSource& source) {
-  return source.states.empty() ? source.pictures : source.states;
-}
-
 /// Takes copies out of each set, and says how many heaps are in both.
 void drop_copies(ComparePlan& plan, Work& work) {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> pixels;
   for (const std::size_t set : {0, 1}) {
-    const auto& own = files_of(plan.sources[set]);
+    const auto& own = plan.sources[set].files;
     files.insert(files.end(), own.begin(), own.end());
     work.pixels[set].resize(own.size());
     pixels.insert(pixels.end(), work.pixels[set].begin(), work.pixels[set].end());
   }
-  const std::size_t first_size = files_of(plan.sources[0]).size();
+  const std::size_t first_size = plan.sources[0].files.size();
   const auto first_of = vision::copies_among(files, pixels);
   std::array<std::vector<std::filesystem::path>, 2> kept;
   std::array<std::vector<SeenHeap>, 2> heaps;
@@ -163,7 +167,7 @@ void drop_copies(ComparePlan& plan, Work& work) {
     heaps[set].push_back(std::move(work.sets[set][i - (set == 0 ? 0 : first_size)]));
   }
   for (const std::size_t set : {0, 1}) {
-    files_of(plan.sources[set]) = std::move(kept[set]);
+    plan.sources[set].files = std::move(kept[set]);
     work.sets[set] = std::move(heaps[set]);
   }
 }
@@ -180,25 +184,25 @@ void group_by_name(ComparePlan& plan, Work& work) {
   if (!plan.groups_by_name) return;
   for (const std::size_t set : {0, 1}) {
     HeapSource& source = plan.sources[set];
+    if (source.is_drawn()) continue;
     std::vector<std::filesystem::path> firsts;
     std::vector<SeenHeap> heaps;
-    for (std::size_t i = 0; i < source.pictures.size(); ++i) {
-      const std::string name = vision::heap_by_name(source.pictures[i]);
+    for (std::size_t i = 0; i < source.files.size(); ++i) {
+      const std::string name = vision::heap_by_name(source.files[i]);
       const auto same = std::ranges::find(firsts, name, vision::heap_by_name);
       SeenHeap& seen = work.sets[set][i];
       if (same == firsts.end()) {
-        firsts.push_back(source.pictures[i]);
-        source.views.push_back({source.pictures[i]});
+        firsts.push_back(source.files[i]);
+        source.views.push_back({source.files[i]});
         heaps.push_back(std::move(seen));
         continue;
       }
       const auto heap = static_cast<std::size_t>(same - firsts.begin());
-      source.views[heap].push_back(source.pictures[i]);
+      source.views[heap].push_back(source.files[i]);
       heaps[heap].m_per_px = scale_of_both(heaps[heap], seen);
       heaps[heap].views.push_back(std::move(seen.views.front()));
     }
-    if (source.pictures.empty()) continue;
-    source.pictures = std::move(firsts);
+    source.files = std::move(firsts);
     work.sets[set] = std::move(heaps);
   }
 }
@@ -207,9 +211,7 @@ void group_by_name(ComparePlan& plan, Work& work) {
 void warn_of_both(const ComparePlan& plan, vision::SetComparison& comparison) {
   if (plan.in_both == 0) return;
   const auto& [first, second] = plan.sources;
-  const auto size = [](const HeapSource& source) {
-    return static_cast<int>(source.pictures.size() + source.states.size());
-  };
+  const auto size = [](const HeapSource& source) { return static_cast<int>(source.files.size()); };
   const bool is_all = plan.in_both == size(first) && plan.in_both == size(second);
   comparison.warnings.push_back(
       {"same_heaps",
@@ -230,8 +232,11 @@ void write_figure(const ComparePlan& plan, const vision::SetComparison& comparis
 ExitCode compare_sets(ComparePlan plan, const std::atomic<bool>& is_interrupted) {
   Work work;
   for (const std::size_t set : {0, 1}) {
-    add_pictures(plan, set, work);
-    add_states(plan, set, work);
+    if (plan.sources[set].kind == HeapSource::Kind::simulated) {
+      add_simulated(plan, set, work);
+    } else {
+      add_files(plan, set, work);
+    }
   }
   if (work.errors.empty()) measure_all(plan, is_interrupted, work);
   if (is_interrupted) {
@@ -263,11 +268,34 @@ struct MeasuredHeap {
   vision::Picture picture;
   vision::MeasureOptions used;  ///< with the picture's own hints
   vision::ReposeAngle angle;
-  std::optional<double> m_per_px;  ///< by a saved scale
+  std::optional<double> m_per_px;           ///< by a saved scale, or a scan's
+  std::optional<double> between_views_rad;  ///< standard deviation; only of a scan
   std::string error;
 };
 
+/// The view of a scan that is nearest to the mean stands for it; the angle is the mean of all.
+MeasuredHeap measured_scan(const std::filesystem::path& file,
+                           const vision::MeasureOptions& options) {
+  calibrate::ScanViews seen = calibrate::measure_scan_file(file, options);
+  MeasuredHeap heap{.picture = std::move(seen.typical_picture),
+                    .used = options,
+                    .angle = std::move(seen.angle),
+                    .m_per_px = seen.m_per_px,
+                    .between_views_rad = seen.between_views_rad,
+                    .error = {}};
+  if (!heap.angle.angle_rad) return heap;
+  vision::ReposeAngle mean = std::move(heap.angle);
+  heap.angle = std::move(seen.views[seen.typical]);
+  heap.angle.status = mean.status;
+  heap.angle.angle_rad = mean.angle_rad;
+  heap.angle.uncertainty_rad = mean.uncertainty_rad;
+  heap.angle.own_uncertainty_rad = mean.own_uncertainty_rad;
+  heap.angle.warnings = std::move(mean.warnings);
+  return heap;
+}
+
 MeasuredHeap measured(const std::filesystem::path& file, const vision::MeasureOptions& options) {
+  if (vision::has_scan_ending(file)) return measured_scan(file, options);
   MeasuredHeap heap;
   heap.picture = vision::read_picture(file);
   const vision::PictureSettings told =
@@ -284,7 +312,7 @@ std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
   std::array<MeasuredHeap, 2> heaps;
   tbb::parallel_for(std::size_t{0}, heaps.size(), [&](std::size_t i) {
     try {
-      heaps[i] = measured(plan.sources[i].pictures.front(), plan.measuring[i]);
+      heaps[i] = measured(plan.sources[i].files.front(), plan.measuring[i]);
     } catch (const base::InputError& error) {
       heaps[i].error =
           naming_file(plan.sources[i].name, base::text_of(error.faults(), kCompareFields[i]));
@@ -306,6 +334,41 @@ bool is_same_measurement(const std::array<MeasuredHeap, 2>& heaps) {
                     same_box);
 }
 
+/// A photograph shows one side of a heap, and a scan's angle is the mean over all sides: how much
+/// they scatter is between the two.
+void add_views_scatter(std::array<MeasuredHeap, 2>& heaps) {
+  const bool is_mixed =
+      heaps[0].between_views_rad.has_value() != heaps[1].between_views_rad.has_value();
+  if (!is_mixed) return;
+  for (MeasuredHeap& heap : heaps) {
+    if (!heap.between_views_rad || !heap.angle.uncertainty_rad) continue;
+    const double scatter_rad =
+        base::student_t_quantile(.975, calibrate::kHeapViews - 1) * *heap.between_views_rad;
+    heap.angle.uncertainty_rad = std::hypot(*heap.angle.uncertainty_rad, scatter_rad);
+    heap.angle.warnings.push_back(
+        {.code = "views_scatter",
+         .message = fmt::format("The photograph shows one side; the scan's angle is the mean of {} "
+                                "views all around, which scatter by {:.2f} degrees (sd): ±{:.2f} "
+                                "degrees of its interval are for that.",
+                                calibrate::kHeapViews, to_degrees(*heap.between_views_rad),
+                                to_degrees(scatter_rad))});
+  }
+}
+
+/// A scan has its own scale, or none.
+void take_scan_scales(const std::array<MeasuredHeap, 2>& heaps, ComparePlan& plan) {
+  using vision::PictureScale;
+  for (const std::size_t i : {0, 1}) {
+    if (!heaps[i].between_views_rad || !plan.comparing.scale[i]) continue;
+    if (!heaps[i].m_per_px) {
+      plan.comparing.scale = {};
+      return;
+    }
+    plan.comparing.scale[i] =
+        PictureScale{.from = PictureScale::From::pixel, .length_m = *heaps[i].m_per_px};
+  }
+}
+
 /// Where the command gave none.
 void take_saved_scales(const std::array<MeasuredHeap, 2>& heaps, ComparePlan& plan) {
   using vision::PictureScale;
@@ -324,8 +387,8 @@ void write_overlay(const ComparePlan& plan, const MeasuredHeap& first,
     return;
   }
   const vision::ComparisonOverlayNotes notes{
-      .titles = {plan.sources[0].pictures.front().filename().string(),
-                 plan.sources[1].pictures.front().filename().string()},
+      .titles = {plan.sources[0].files.front().filename().string(),
+                 plan.sources[1].files.front().filename().string()},
       .margin_rad = plan.comparing.margin_rad};
   vision::write_picture(plan.overlay_file,
                         vision::draw_comparison(first.picture, first.angle, comparison, notes));
@@ -339,7 +402,7 @@ void write_results(const ComparePlan& plan, const vision::HeapComparison& compar
 }
 
 ExitCode compare_pair(ComparePlan plan, const std::atomic<bool>& is_interrupted) {
-  const std::array<MeasuredHeap, 2> heaps = measure_both(plan);
+  std::array<MeasuredHeap, 2> heaps = measure_both(plan);
   if (is_interrupted) {
     print_line("interrupted, no results were written");
     return ExitCode::interrupted;
@@ -351,6 +414,8 @@ ExitCode compare_pair(ComparePlan plan, const std::atomic<bool>& is_interrupted)
   print_lines(errors);
   if (!errors.empty()) return ExitCode::bad_input;
 
+  add_views_scatter(heaps);
+  take_scan_scales(heaps, plan);
   take_saved_scales(heaps, plan);
   plan.comparing.same_measurement = is_same_measurement(heaps);
   const vision::HeapComparison comparison =

@@ -11,11 +11,13 @@
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_options.h"
+#include "cli/common/position_options.h"
 #include "cli/compare/compare.h"
 #include "dem/experiment/experiment_table.h"
 #include "vision/files/file_list.h"
 #include "vision/hints/hint_file.h"
 #include "vision/measure/scale_bar.h"
+#include "vision/scan/scan_file.h"
 
 namespace repose::cli {
 
@@ -42,29 +44,37 @@ bool is_picture(const fs::path& file) {
 }
 
 bool is_heap_state(const fs::path& file) {
-  return has_state_ending(file) &&
+  return file.extension() == ".vtp" &&
          file.filename().string().starts_with(dem::pictured_experiment().name);
 }
 
 HeapSource folder_source(const std::string& name, std::vector<std::string>& errors) {
-  HeapSource source{.name = name, .pictures = {}, .states = {}, .is_file = false};
-  source.pictures = files_of(name, is_picture);
-  if (!source.pictures.empty()) return source;
-  source.states = files_of(fs::path(name) / calibrate::kHeapsFolder, is_heap_state);
-  if (source.states.empty()) source.states = files_of(name, is_heap_state);
-  if (source.states.empty()) {
+  using Kind = HeapSource::Kind;
+  HeapSource source{.name = name, .kind = Kind::pictures, .files = {}, .is_file = false};
+  source.files = files_of(name, is_picture);
+  if (!source.files.empty()) return source;
+  source.kind = Kind::scans;
+  source.files = files_of(name, vision::has_scan_ending);
+  if (!source.files.empty()) return source;
+  source.kind = Kind::simulated;
+  source.files = files_of(fs::path(name) / calibrate::kHeapsFolder, is_heap_state);
+  if (source.files.empty()) source.files = files_of(name, is_heap_state);
+  if (source.files.empty()) {
     errors.push_back(fmt::format(
-        "{}: no pictures and no simulated heaps in this folder. Fix: name a folder with "
-        ".jpg, .heic, .png, .tif, .bmp or .webp files in it, or one that repose simulate heap "
-        "--out or repose calibrate --out has written.",
+        "{}: no pictures, no scans and no simulated heaps in this folder. Fix: name a folder with "
+        ".jpg, .heic, .png, .tif, .bmp or .webp files in it, with .ply, .obj, .stl or .glb, or one "
+        "that repose simulate heap --out or repose calibrate --out has written.",
         name));
   }
   return source;
 }
 
-}  // namespace
+HeapSource::Kind kind_of(const fs::path& file) {
+  if (vision::has_scan_ending(file)) return HeapSource::Kind::scans;
+  return is_positions_file(file) ? HeapSource::Kind::simulated : HeapSource::Kind::pictures;
+}
 
-bool has_state_ending(const fs::path& file) { return file.extension() == ".vtp"; }
+}  // namespace
 
 std::array<HeapSource, 2> heap_sources(const std::vector<std::string>& names,
                                        std::vector<std::string>& errors) {
@@ -73,10 +83,8 @@ std::array<HeapSource, 2> heap_sources(const std::vector<std::string>& names,
     std::error_code error;
     if (fs::is_directory(names[i], error)) {
       sources[i] = folder_source(names[i], errors);
-    } else if (has_state_ending(names[i])) {
-      sources[i] = {.name = names[i], .pictures = {}, .states = {names[i]}};
     } else {
-      sources[i] = {.name = names[i], .pictures = {names[i]}, .states = {}};
+      sources[i] = {.name = names[i], .kind = kind_of(names[i]), .files = {names[i]}};
     }
   }
   return sources;
@@ -137,7 +145,7 @@ bool may_have_saved_scales(const ComparePlan& plan) {
     return std::filesystem::exists(vision::hint_file_of(picture), ignored);
   };
   return std::any_of(plan.sources.begin(), plan.sources.end(), [&](const HeapSource& source) {
-    return std::any_of(source.pictures.begin(), source.pictures.end(), has_file);
+    return !source.is_drawn() && std::ranges::any_of(source.files, has_file);
   });
 }
 
@@ -175,10 +183,16 @@ void read_camera(const std::string& text, ComparePlan& plan) {
     typed.refuse("no higher than far away, as a level camera is", "--camera-mm 1500,40");
     return;
   }
-  const bool has_states =
-      std::any_of(plan.sources.begin(), plan.sources.end(),
-                  [](const HeapSource& source) { return !source.states.empty(); });
-  if (!has_states) {
+  using Kind = HeapSource::Kind;
+  const auto has = [&](Kind kind) {
+    return std::ranges::any_of(plan.sources,
+                               [&](const HeapSource& source) { return source.kind == kind; });
+  };
+  if (has(Kind::scans)) {
+    typed.refuse("left out where there are scans, which are seen as from far away", "leave it out");
+    return;
+  }
+  if (!has(Kind::simulated)) {
     typed.refuse("for simulated heaps, and there are only pictures", "leave it out");
     return;
   }
@@ -206,29 +220,32 @@ void read_measuring_of_both(const CompareArguments& arguments, ComparePlan& plan
   read(1, arguments.exclude_second);
 }
 
-/// What holds for two pictures only, or for photographs only, is not taken where it would do
-/// nothing.
+/// What holds for two pictures only.
 void check_options_of_sets(const CompareArguments& arguments, ComparePlan& plan) {
-  if (!arguments.base_mm.empty()) {
-    plan.errors.emplace_back(
-        "--base-mm is the base of one heap, and a set has several. Fix: give --mm-per-px.");
-  }
+  if (arguments.base_mm.empty()) return;
+  plan.errors.emplace_back(
+      "--base-mm is the base of one heap, and a set has several. Fix: give --mm-per-px.");
+}
+
+/// What holds for photographs only is not taken where it would do nothing.
+void check_options_of_drawn(const CompareArguments& arguments, ComparePlan& plan) {
   const std::array<const std::vector<std::string>*, 2> boxes = {&arguments.exclude_first,
                                                                 &arguments.exclude_second};
   for (const std::size_t i : {0, 1}) {
-    if (plan.sources[i].states.empty()) continue;
+    if (!plan.sources[i].is_drawn()) continue;
     const auto refuse = [&](const char* option) {
       plan.errors.push_back(
-          fmt::format("{}: {} is simulated, its pictures are drawn level, to a known scale and "
+          fmt::format("{}: {} is {}, its pictures are drawn level, to a known scale and "
                       "without anything else. Fix: leave the option out.",
-                      option, plan.sources[i].name));
+                      option, plan.sources[i].name,
+                      plan.sources[i].kind == HeapSource::Kind::scans ? "scanned" : "simulated"));
     };
     if (!boxes[i]->empty()) refuse(kExcludeOptions[i]);
-    const bool is_other_simulated = !plan.sources[1 - i].states.empty();
+    const bool is_other_drawn = plan.sources[1 - i].is_drawn();
     for (const auto& [option, text] : {std::pair{"--mm-per-px", &arguments.mm_per_px},
                                        std::pair{"--pitch-deg", &arguments.pitch_deg}}) {
       const bool is_for_both = text->find(',') != std::string::npos;
-      if (!text->empty() && (is_for_both || is_other_simulated)) refuse(option);
+      if (!text->empty() && (is_for_both || is_other_drawn)) refuse(option);
     }
     plan.measuring[i].camera_pitch_rad.reset();
   }
@@ -239,7 +256,7 @@ void read_grouping(const CompareArguments& arguments, ComparePlan& plan) {
   plan.groups_by_name = arguments.groups_by_name;
   if (!plan.groups_by_name) return;
   const bool has_folder = std::ranges::any_of(plan.sources, [](const HeapSource& source) {
-    return !source.is_file && !source.pictures.empty();
+    return !source.is_file && !source.is_drawn() && !source.files.empty();
   });
   if (has_folder || !plan.errors.empty()) return;
   plan.errors.emplace_back(
@@ -265,11 +282,11 @@ ComparePlan plan_compare(const CompareArguments& arguments) {
   read_ending({"--overlay", plan.overlay_file, plan.errors}, {".png", ".jpg", ".jpeg"});
   plan.json_file = arguments.json_file;
   if (!plan.is_pair()) check_options_of_sets(arguments, plan);
+  check_options_of_drawn(arguments, plan);
   read_grouping(arguments, plan);
   std::vector<std::filesystem::path> inputs;
   for (const HeapSource& source : plan.sources) {
-    inputs.insert(inputs.end(), source.pictures.begin(), source.pictures.end());
-    inputs.insert(inputs.end(), source.states.begin(), source.states.end());
+    inputs.insert(inputs.end(), source.files.begin(), source.files.end());
   }
   check_output_places(
       {{"--overlay", plan.overlay_file}, json_place(plan.json_file, "\"margin_deg\"")}, inputs,
@@ -296,11 +313,15 @@ means, which is a verdict on the grains. A folder contains photographs, one per
 heap (with --group-by-name those whose names differ in a last number after _ or
 - alone are of one heap, which has their mean), or simulated heaps, as written
 by repose simulate heap --out and repose calibrate --out; a .vtp file is one
-such heap. Its pictures are drawn as from far away. A level camera that stands
-three widths from the heap reads some .8 degrees less, for the nuts of the
+such heap, as is a file of particles of another program (repose measure tells
+how they are read). Its pictures are drawn as from far away. A level camera that
+stands three widths from the heap reads some .8 degrees less, for the nuts of the
 sample: --camera-mm says where the photographs were taken from, by the lens's
-distance from the heap's middle and its height
-above the ground, so that both sets are seen alike.
+distance from the heap's middle and its height above the ground, so that both
+sets are seen alike. A three-dimensional scan, or a folder of them, is drawn
+likewise: its angle here is that of its silhouettes, not of its slices. Where a
+photograph is compared with one scan, it shows one side: by how much the scan's
+views scatter is in the interval.
 
 Scale: mm per pixel, or the known width of the base. One value applies to both
 pictures, A,B to one each. A scale that repose measure --save-hints has saved

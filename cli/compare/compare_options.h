@@ -15,34 +15,33 @@
 
 namespace repose::cli {
 
-/// What a name on the command line stands for: one picture, the pictures of a folder with a heap
-/// each, or simulated heaps.
+/// What a name on the command line stands for: one heap, or those of a folder.
 struct HeapSource {
+  enum class Kind {
+    pictures,
+    simulated,  ///< states of repose, or particles of another program
+    scans,
+  };
   std::string name;
-  std::vector<std::filesystem::path> pictures;
-  std::vector<std::filesystem::path> states;  ///< .vtp; never together with pictures
-  /// Of each of the `pictures`, once they stand for a heap with several, all that are of it.
+  Kind kind = Kind::pictures;
+  std::vector<std::filesystem::path> files;  ///< of a heap each
+  /// Of each of the pictures, once they stand for a heap with several, all that are of it.
   std::vector<std::vector<std::filesystem::path>> views = {};
+  bool is_file = true;  ///< not a folder
 
   /// Files of the heap in that place.
   std::vector<std::filesystem::path> files_of_heap(std::size_t heap) const {
-    if (!states.empty()) return {states[heap]};
-    return views.empty() ? std::vector{pictures[heap]} : views[heap];
+    return views.empty() ? std::vector{files[heap]} : views[heap];
   }
-
-  bool is_one_picture() const { return is_file && states.empty(); }
-  bool is_file = true;  ///< not a folder
-  std::size_t heaps() const { return pictures.size() + states.size(); }
+  /// Their views are drawn here, from all around.
+  bool is_drawn() const { return kind != Kind::pictures; }
 };
 
-/// A folder stands for the pictures in it; else for the heaps of its subfolder `heaps`, as
-/// `repose calibrate` leaves them, or for those in itself, as `repose simulate heap` does. All
-/// errors are added.
+/// A folder stands for the pictures in it; else for the scans; else for the heaps of its subfolder
+/// `heaps`, as `repose calibrate` leaves them, or for those in itself, as `repose simulate heap`
+/// does. All errors are added.
 std::array<HeapSource, 2> heap_sources(const std::vector<std::string>& names,
                                        std::vector<std::string>& errors);
-
-/// A state file by its name.
-bool has_state_ending(const std::filesystem::path& file);
 
 /// The option with which each picture's boxes are left out.
 inline constexpr std::array kExcludeOptions = {"--exclude-first", "--exclude-second"};
@@ -65,8 +64,13 @@ struct ComparePlan {
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
 
-  /// Two pictures are compared with each other; all else as sets of heaps.
-  bool is_pair() const { return sources[0].is_one_picture() && sources[1].is_one_picture(); }
+  /// Two pictures or scans are compared with each other; all else as sets of heaps.
+  bool is_pair() const {
+    const auto is_one = [](const HeapSource& source) {
+      return source.is_file && source.kind != HeapSource::Kind::simulated;
+    };
+    return is_one(sources[0]) && is_one(sources[1]);
+  }
 };
 
 /// Reads and checks all that was typed, also whether the output can be written. All errors at once.

@@ -239,8 +239,11 @@ std::string outlines_text(const ComparePlan& plan, const vision::SetComparison& 
 
 /// Each picture of a bench that gave no angle, and why.
 void add_refused(const HeapSource& source, const std::vector<vision::SeenHeap>& heaps, Page& page) {
-  for (std::size_t i = 0; i < source.pictures.size(); ++i) {
+  if (source.kind == HeapSource::Kind::simulated) return;
+  const auto has_angle = [](const vision::ReposeAngle& view) { return view.angle_rad.has_value(); };
+  for (std::size_t i = 0; i < source.files.size(); ++i) {
     const std::vector<std::filesystem::path> files = source.files_of_heap(i);
+    if (source.is_drawn() && std::ranges::any_of(heaps[i].views, has_angle)) continue;
     for (std::size_t k = 0; k < files.size(); ++k) {
       const vision::ReposeAngle& view = heaps[i].views[k];
       if (view.status != vision::MeasureStatus::refused) continue;
@@ -251,11 +254,20 @@ void add_refused(const HeapSource& source, const std::vector<vision::SeenHeap>& 
 
 }  // namespace
 
+namespace {
+
+const char* name_of(HeapSource::Kind kind) {
+  if (kind == HeapSource::Kind::pictures) return "pictures";
+  return kind == HeapSource::Kind::scans ? "scanned" : "simulated";
+}
+
+}  // namespace
+
 std::string title_of(const HeapSource& source) {
   const std::filesystem::path path(source.name);
   const std::filesystem::path name =
       path.has_filename() ? path.filename() : path.parent_path().filename();
-  return fmt::format("{} ({})", name.string(), source.states.empty() ? "pictures" : "simulated");
+  return fmt::format("{} ({})", name.string(), name_of(source.kind));
 }
 
 namespace {
@@ -270,8 +282,8 @@ std::string distance_text(const std::optional<dem::LevelCamera>& camera) {
 std::string pictures_text(const HeapSource& source) {
   std::size_t pictures = 0;
   for (const auto& files : source.views) pictures += files.size();
-  if (pictures <= source.pictures.size()) return "a picture of each heap";
-  return fmt::format("{} pictures of {} heaps", pictures, source.pictures.size());
+  if (pictures <= source.files.size()) return "a picture of each heap";
+  return fmt::format("{} pictures of {} heaps", pictures, source.files.size());
 }
 
 }  // namespace
@@ -283,11 +295,11 @@ std::string sets_table(const ComparePlan& plan,
   constexpr std::array kMarks = {"first   ", "second  "};
   for (const std::size_t i : {0, 1}) {
     const HeapSource& source = plan.sources[i];
-    page.add(kMarks[i],
-             source.states.empty()
-                 ? fmt::format("{}: {}", source.name, pictures_text(source))
-                 : fmt::format("{}: simulated heaps, {} views of each{}", source.name,
-                               heaps[i].front().views.size(), distance_text(plan.camera)));
+    page.add(kMarks[i], source.is_drawn()
+                            ? fmt::format("{}: {} heaps, {} views of each{}", source.name,
+                                          name_of(source.kind), heaps[i].front().views.size(),
+                                          distance_text(plan.camera))
+                            : fmt::format("{}: {}", source.name, pictures_text(source)));
   }
   page.add(means_table(plan, comparison));
   if (comparison.iou) {

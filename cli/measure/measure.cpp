@@ -286,6 +286,9 @@ std::vector<MeasuredPicture> measure_one_scan(const MeasurePlan& plan, std::size
     one.sizes.reason = one.scan->size_reason;
     one.sizes.height_mm = one.scan->height_mm;
     one.sizes.base_mm = one.scan->base_mm;
+    one.silhouettes = calibrate::measure_scan_views(*one.scan, plan.options);
+    one.silhouettes->views.clear();
+    one.silhouettes->typical_picture = {};
     if (plan.overlays.empty() && !plan.keeps_overlays) return;
     const vision::Picture overlay = vision::draw_scan_overlay(*one.scan, file.filename().string());
     if (plan.keeps_overlays) {
@@ -319,7 +322,7 @@ std::vector<MeasuredPicture> measure_one_of_particles(const MeasurePlan& plan, s
     MeasuredPicture shown;
     shown.file = one.file;
     shown.positions.emplace();
-    shown.angle = positions.views.front().angle;
+    shown.angle = positions.views.front();
     const Seen seen{positions.first_picture, plan.options};
     if (!plan.overlays.empty()) draw(seen, file, plan.overlays[index], shown);
     one.overlay_error = shown.overlay_error;
@@ -329,7 +332,7 @@ std::vector<MeasuredPicture> measure_one_of_particles(const MeasurePlan& plan, s
     }
     positions.first_picture = {};
     drop_large_parts(shown);
-    positions.views.front().angle = std::move(shown.angle);
+    positions.views.front() = std::move(shown.angle);
   });
   return measured;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/experiment/scan_angle.h"
 #include "calibrate/particles/positions_angle.h"
 #include "calibrate/report/measure_report.h"
 #include "cli/common/output.h"
@@ -43,8 +44,9 @@ struct MeasuredPicture {
   std::optional<vision::SeenBoard> board;  ///< in its picture
   bool has_scale = false;                  ///< a board that was seen, or a given scale
   vision::HeapSizes sizes;
-  std::optional<vision::ScannedHeap> scan;   ///< without its map; none: no scan
-  std::optional<vision::Proposal> proposal;  ///< what would help, when it is refused
+  std::optional<vision::ScannedHeap> scan;          ///< without its map; none: no scan
+  std::optional<calibrate::ScanViews> silhouettes;  ///< of a scan; without its views
+  std::optional<vision::Proposal> proposal;         ///< what would help, when it is refused
   std::string pixels;         ///< a fingerprint of the picture's; empty: not read, or a film
   std::string heap;           ///< pictures of one name are of one heap; empty: of its own
   std::string copy_of;        ///< an earlier file that shows the same; empty: it is no copy

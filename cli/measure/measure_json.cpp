@@ -1,6 +1,7 @@
 #include "cli/measure/measure_json.h"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -362,8 +363,19 @@ Json ground_json(const std::optional<vision::ScanGround>& ground) {
           {"sectors", ground->sectors}};
 }
 
+Json silhouettes_json(const std::optional<calibrate::ScanViews>& silhouettes) {
+  if (!silhouettes) return nullptr;
+  const vision::ReposeAngle& angle = silhouettes->angle;
+  return {{"status", name_of(angle.status)},
+          {"reason", angle.reason},
+          {"angle_deg", degrees(angle.angle_rad)},
+          {"uncertainty_deg", degrees(angle.uncertainty_rad)},
+          {"between_views_deg", degrees(silhouettes->between_views_rad)}};
+}
+
 /// What is known of a scan alone; null of a picture, and what a picture has besides is null of it.
-void add_scan(const std::optional<vision::ScannedHeap>& scan, Json& json) {
+void add_scan(const MeasuredPicture& picture, Json& json) {
+  const std::optional<vision::ScannedHeap>& scan = picture.scan;
   add_estimate(json, "volume_ml", scan ? scan->volume_ml : std::nullopt);
   json["scan"] = nullptr;
   if (!scan) return;
@@ -376,7 +388,8 @@ void add_scan(const std::optional<vision::ScannedHeap>& scan, Json& json) {
                   {"axis", scan->axis ? Json(*scan->axis) : Json()},
                   {"hole_share", scan->hole_share},
                   {"azimuths", azimuths_json(scan->azimuths)},
-                  {"azimuth_sd_deg", degrees(scan->azimuth_sd_rad)}};
+                  {"azimuth_sd_deg", degrees(scan->azimuth_sd_rad)},
+                  {"silhouettes", silhouettes_json(picture.silhouettes)}};
 }
 
 /// Of a file of particles: what is in it, and what each view gave.
@@ -384,11 +397,13 @@ Json positions_json(const std::optional<calibrate::MeasuredPositions>& positions
   if (!positions) return nullptr;
   const calibrate::PositionsFile& file = positions->file;
   Json views = Json::array();
-  for (const calibrate::PositionsView& view : positions->views) {
-    views.push_back({{"azimuth_deg", rounded_degrees(view.azimuth_rad)},
-                     {"status", name_of(view.angle.status)},
-                     {"angle_deg", degrees(view.angle.angle_rad)},
-                     {"uncertainty_deg", degrees(view.angle.uncertainty_rad)}});
+  for (const vision::ReposeAngle& view : positions->views) {
+    const double turn =
+        static_cast<double>(views.size()) / static_cast<double>(positions->views.size());
+    views.push_back({{"azimuth_deg", rounded_degrees(std::numbers::pi * turn)},
+                     {"status", name_of(view.status)},
+                     {"angle_deg", degrees(view.angle_rad)},
+                     {"uncertainty_deg", degrees(view.uncertainty_rad)}});
   }
   return {{"format", file.format},
           {"unit", file.unit.empty() ? Json() : Json(file.unit)},
@@ -434,7 +449,7 @@ Json picture_json(const MeasuredPicture& picture) {
             {"definitions", definitions_json(angle.definitions)}};
   add_sizes(picture, json);
   add_film(picture.filmed, json);
-  add_scan(picture.scan, json);
+  add_scan(picture, json);
   json["positions"] = positions_json(picture.positions);
   if (picture.outcome != Outcome::measured) {
     json["reason"] = picture.error;

@@ -237,6 +237,21 @@ void add_sizes(Table& table, const MeasuredPicture& picture) {
   }
 }
 
+/// What pictures of the heap would show.
+std::string silhouettes_text(const std::optional<calibrate::ScanViews>& silhouettes) {
+  if (!silhouettes || !silhouettes->angle.angle_rad) {
+    return fmt::format("its silhouettes give no angle: {}",
+                       silhouettes ? silhouettes->angle.reason : "they were not drawn");
+  }
+  return fmt::format(
+      "in silhouette from {} sides, as pictures show it: {:.2f} ± {:.2f}° ({}, sd {:.2f}°); "
+      "compare "
+      "and studies take this one",
+      calibrate::kHeapViews, to_degrees(*silhouettes->angle.angle_rad),
+      to_degrees(silhouettes->angle.uncertainty_rad.value_or(0)),
+      name_of(silhouettes->angle.status), to_degrees(silhouettes->between_views_rad.value_or(0)));
+}
+
 /// Of a scan, whose heap has azimuths and no sides.
 void add_scan(Table& table, const MeasuredPicture& picture, const vision::ScannedHeap& scan,
               const TableStyle& style) {
@@ -252,6 +267,7 @@ void add_scan(Table& table, const MeasuredPicture& picture, const vision::Scanne
                                   [](const auto& one) { return one.angle_rad.has_value(); });
   table.add_note(kNoteIndent, fmt::format("scan: mean of {} azimuths, which scatter by sd {:.2f}°",
                                           seen, to_degrees(scan.azimuth_sd_rad.value_or(0))));
+  table.add_note(kNoteIndent, silhouettes_text(picture.silhouettes));
   std::string sizes;
   if (scan.height_mm) sizes += fmt::format("height {} mm", size_text(*scan.height_mm));
   if (scan.base_mm) sizes += fmt::format(", base {} mm", size_text(*scan.base_mm));
@@ -269,7 +285,7 @@ void add_scan(Table& table, const MeasuredPicture& picture, const vision::Scanne
 std::string positions_text(const calibrate::MeasuredPositions& positions) {
   std::string text = positions.file.text();
   const auto counted = std::ranges::count_if(
-      positions.views, [](const auto& view) { return view.angle.angle_rad.has_value(); });
+      positions.views, [](const auto& view) { return view.angle_rad.has_value(); });
   if (positions.between_views_rad) {
     text += fmt::format("; mean of {} views, which scatter by {:.2f}° (sd)", counted,
                         to_degrees(*positions.between_views_rad));

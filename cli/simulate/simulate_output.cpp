@@ -257,6 +257,9 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<calibrate:
   if (!measured.pictures.empty()) {
     return "measured in pictures: repose measure gives their angle\n";
   }
+  if (!measured.scans.empty()) {
+    return "measured in scans: repose calibrate reads their angle in silhouettes\n";
+  }
   if (!measured.videos.empty()) {
     return fmt::format("measured in films: repose track {} gives their readings\n",
                        dem::name_of(plan.experiment));

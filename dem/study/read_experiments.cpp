@@ -34,14 +34,15 @@ std::string measured_example() {
 /// One way of saying it, and only one.
 void check_ways(Section& measured) {
   int ways = 0;
-  for (const char* way : {"values", "mean", "readings", "pictures", "videos"})
+  for (const char* way : {"values", "mean", "readings", "pictures", "videos", "scans"})
     ways += measured.has(way) ? 1 : 0;
   if (ways == 1) return;
-  measured.errors().add(measured.place(),
-                        fmt::format("{} has {}", measured.path(),
-                                    ways == 0 ? "no values" : "more than one kind of values"),
-                        "values, or their mean, or a sheet of readings, or pictures, or videos",
-                        "for example " + measured_example());
+  measured.errors().add(
+      measured.place(),
+      fmt::format("{} has {}", measured.path(),
+                  ways == 0 ? "no values" : "more than one kind of values"),
+      "values, or their mean, or a sheet of readings, or pictures, videos or scans",
+      "for example " + measured_example());
 }
 
 /// How far bench and simulation may be apart and still agree.
@@ -158,6 +159,8 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
   check_medium(measured, "pictures", is_pictured, entry, "only this is measured in pictures");
   result.videos = files_named(measured, "videos", "videos = [\"drops/*.mp4\"]", files);
   check_medium(measured, "videos", is_filmed, entry, "only this is read off films");
+  result.scans = files_named(measured, "scans", "scans = [\"heaps/*.ply\"]", files);
+  check_medium(measured, "scans", is_pictured, entry, "only this is measured in scans");
   if (const auto in_air = measured.truth("in_air", "in_air = false")) {
     result.in_air = *in_air;
     if (!entry.is_in_air) {

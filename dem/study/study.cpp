@@ -211,7 +211,7 @@ std::vector<std::filesystem::path> files_of(const Study& study) {
   for (const auto& [experiment, described] : study.experiments) {
     const Measured& measured = described.measured;
     if (measured.sheet) files.push_back(*measured.sheet);
-    for (const auto* named : {&measured.pictures, &measured.videos}) {
+    for (const auto* named : {&measured.pictures, &measured.videos, &measured.scans}) {
       files.insert(files.end(), named->begin(), named->end());
     }
   }

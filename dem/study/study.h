@@ -62,8 +62,8 @@ struct MeasuredReading {
 };
 
 /// What was measured on the bench: readings, or their mean and scatter, or a sheet of readings, or
-/// pictures or films to measure. All empty: nothing was. In the unit of the experiment (mm or
-/// degrees).
+/// pictures, films or three-dimensional scans to measure. All empty: nothing was. In the unit of
+/// the experiment (mm or degrees).
 struct Measured {
   std::vector<double> values;
   std::optional<double> mean;
@@ -76,6 +76,7 @@ struct Measured {
   /// Of each of the `pictures` entries the heap that all its files are of; empty: of a heap each.
   std::vector<std::string> picture_heaps;
   std::vector<std::filesystem::path> videos;  ///< the same
+  std::vector<std::filesystem::path> scans;   ///< the same: of a heap each
   /// Standard uncertainty of a single one of the `values`, where it is known: they scatter by as
   /// much at least.
   std::optional<double> value_uncertainty;
@@ -86,6 +87,9 @@ struct Measured {
   bool in_air = true;
   std::vector<Systematic> systematic = {};  ///< of values and mean
   std::vector<MeasuredReading> also;
+
+  /// It is a heap's angle, measured here.
+  bool is_seen() const { return !pictures.empty() || !videos.empty() || !scans.empty(); }
 };
 
 /// An experiment as a study describes it.

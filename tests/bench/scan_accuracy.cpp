@@ -18,6 +18,7 @@
 #include <tbb/parallel_for.h>
 
 #include "base/units.h"
+#include "calibrate/experiment/scan_angle.h"
 #include "dem/state/state_file.h"
 #include "render/scene/scene.h"
 #include "tests/bench/benches.h"
@@ -44,6 +45,7 @@ struct ScannedRow {
   vision::ScannedHeap heap;
   double angle_deg = 0;       ///< the truth
   double silhouette_deg = 0;  ///< what its silhouettes show
+  vision::ReposeAngle seen;   ///< in silhouettes of the scan
   double volume_ml = 0;
 };
 
@@ -140,7 +142,7 @@ struct ScanTally {
 };
 
 void print_rows(const std::vector<ScannedRow>& rows) {
-  ScanTally angle, volume;
+  ScanTally angle, volume, seen;
   int refused = 0, flagged = 0;
   for (const ScannedRow& row : rows) {
     const vision::ReposeAngle& found = row.heap.angle;
@@ -159,9 +161,15 @@ void print_rows(const std::vector<ScannedRow>& rows) {
     angle.add(off_deg, half_deg);
     volume.add(100 * (ml / row.volume_ml - 1), 100 * half_ml / row.volume_ml);
   }
+  for (const ScannedRow& row : rows) {
+    if (!row.seen.angle_rad) continue;
+    seen.add(to_degrees(*row.seen.angle_rad) - row.silhouette_deg,
+             to_degrees(*row.seen.uncertainty_rad));
+  }
   fmt::print("\n{} scans, {} refused, {} flagged\n", rows.size(), refused, flagged);
   angle.print("angle [°]");
   volume.print("volume [%]");
+  seen.print("silhouette [°]");
   std::vector<double> more;
   for (const ScannedRow& row : rows) {
     if (row.angle_deg > 0) more.push_back(row.silhouette_deg - row.angle_deg);
@@ -190,6 +198,8 @@ void measure_scans(const ScanSettings& settings) {
       row.silhouette_deg = seen_deg;
       row.volume_ml = exact.volume_ml;
       row.heap = measured(scanned(scene, scanner_for(settings.seed + 1000 * k + scan)));
+      row.seen = calibrate::measure_scan_views(row.heap).angle;
+      row.heap.map = {};
     }
   });
   print_rows(rows);

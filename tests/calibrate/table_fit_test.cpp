@@ -21,6 +21,7 @@
 #include "calibrate/study/study_record.h"
 #include "dem/study/study.h"
 #include "tests/calibrate/made_up_table.h"
+#include "tests/support/drawn_scan.h"
 #include "tests/support/heap_picture.h"
 #include "tests/support/particle_files.h"
 #include "tests/support/temporary_folder.h"
@@ -124,31 +125,34 @@ TEST_F(TableRunsTest, PicturesAndParticlesAreMeasured) {
   scene.height = 400;
   scene.form.left_rad = scene.form.right_rad = 24 * kDegree;
   vision::write_picture(folder_.path() / "heap.png", testing::draw_heap(scene).picture);
+  folder_.write("heap.ply",
+                testing::ply_of(testing::drawn_scan({.surface = testing::cone_surface(26, 80)})));
   vision::Picture blank{.width = 300, .height = 200, .bgr = {}};
   blank.bgr.assign(std::size_t{3} * 300 * 200, 255);
   vision::write_picture(folder_.path() / "blank.png", blank);
   const TableStudy read = study(
       "[parameter]\nx = { min = 0, max = 1 }\n[measured]\n"
       "aor = { mean = 24, sd = 1, n = 4, unit = \"deg\" }\n");
-  const TableRuns found = runs(read,
-                               "x,aor,aor_sd,n\n0.1,heap_20.dump,,3\n0.5,heap.png,,\n"
-                               "0.9,heap_28.dump,,\n0.7,blank.png,,\n0.3,21.5,0.4,3\n");
-  ASSERT_EQ(found.runs.size(), 4U);
+  const TableRuns found =
+      runs(read,
+           "x,aor,aor_sd,n\n0.1,heap_20.dump,,3\n0.5,heap.png,,\n"
+           "0.9,heap_28.dump,,\n0.7,blank.png,,\n0.8,heap.ply,,\n0.3,21.5,0.4,3\n");
+  ASSERT_EQ(found.runs.size(), 5U);
   EXPECT_EQ(found.without_reading, 1);
-  const std::vector<double> expected = {20, 24, 28};
+  const std::vector<double> expected = {20, 24, 28, 26};
   for (std::size_t k = 0; k < expected.size(); ++k) {
     EXPECT_NEAR(found.runs[k].readings.at("value"), expected[k], 1.5) << k;
     EXPECT_GT(found.runs[k].reading_sd.at("value"), .05) << k;
     EXPECT_LT(found.runs[k].reading_sd.at("value"), 2) << k;
     EXPECT_EQ(found.runs[k].repeats, 1) << k;
   }
-  EXPECT_THAT(found.runs[3].reading_sd, IsEmpty());
-  EXPECT_EQ(found.runs[3].repeats, 3);
-  EXPECT_THAT(found.notes, Contains(AllOf(HasSubstr("3 of 4 pictures"), HasSubstr("flank_20_80"))));
+  EXPECT_THAT(found.runs[4].reading_sd, IsEmpty());
+  EXPECT_EQ(found.runs[4].repeats, 3);
+  EXPECT_THAT(found.notes, Contains(AllOf(HasSubstr("4 of 5 pictures"), HasSubstr("flank_20_80"))));
   EXPECT_THAT(found.notes,
               Contains(HasSubstr("refused, and without a reading: line 5, blank.png")));
   EXPECT_THAT(found.notes, Contains(HasSubstr("definition")));
-  EXPECT_EQ(found.texts.size(), 5U);  // the table, and a fingerprint of each file
+  EXPECT_EQ(found.texts.size(), 6U);  // the table, and a fingerprint of each file
 }
 
 TEST_F(TableRunsTest, PicturesThatCannotBeReadAreFaults) {

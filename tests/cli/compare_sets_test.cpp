@@ -137,7 +137,7 @@ TEST_F(CompareOfSets, AFolderWithoutHeapsIsRefused) {
   std::filesystem::create_directories(path("empty"));
   const Finished done = run({"flat", "empty"});
   EXPECT_EQ(done.exit_code, 2);
-  EXPECT_THAT(done.err, AllOf(HasSubstr("empty: no pictures and no simulated heaps"),
+  EXPECT_THAT(done.err, AllOf(HasSubstr("empty: no pictures, no scans and no simulated heaps"),
                               HasSubstr("Fix: "), Not(HasSubstr("flat:"))));
 }
 

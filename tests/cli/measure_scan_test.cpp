@@ -47,11 +47,16 @@ TEST_F(MeasureScan, GivesTheKeysOfAPictureAndItsOwn) {
   EXPECT_EQ(heap["scan"]["azimuths"].size(), 72U);
   EXPECT_EQ(heap["scan"]["points"], 100'000);
   EXPECT_EQ(heap["scan"]["ground"]["sectors"], 8);
+  const json& silhouettes = heap["scan"]["silhouettes"];
+  EXPECT_EQ(silhouettes["status"], "ok");
+  EXPECT_NEAR(silhouettes["angle_deg"].get<double>(), 27,
+              silhouettes["uncertainty_deg"].get<double>());
 }
 
 TEST_F(MeasureScan, TellsItsSizesAndWhyThereAreNone) {
   EXPECT_THAT(run({"heap.ply", "--unit", "mm"}).out,
-              AllOf(HasSubstr("72 azimuths"), HasSubstr("volume "), HasSubstr(" ml")));
+              AllOf(HasSubstr("72 azimuths"), HasSubstr("in silhouette from 9 sides"),
+                    HasSubstr("volume "), HasSubstr(" ml")));
   EXPECT_THAT(run({"heap.ply"}).out, AllOf(HasSubstr("no sizes"), HasSubstr("(--unit")));
 }
 

@@ -56,6 +56,14 @@ TEST_F(StudyFile, SaysWhatAllReadingsShare) {
   EXPECT_EQ(measured_in(study, experiment_of<HeapProtocol>()).also.front().systematic[0].sd, .5);
 }
 
+TEST_F(StudyFile, NamesScansOfHeaps) {
+  const std::string heap = kStudy + "[experiment.heap]\nmeasured = { scans = [\"s*.ply\"]";
+  const Measured measured = measured_in(read(heap + " }\n"), experiment_of<HeapProtocol>());
+  ASSERT_EQ(measured.scans.size(), 1U);
+  EXPECT_TRUE(measured.is_seen() && measured.pictures.empty());
+  EXPECT_THAT(errors(heap + ", mean = 24 }\n"), HasSubstr("more than one kind of values"));
+}
+
 TEST_F(StudyFile, GroupsPicturesOfOneHeap) {
   const std::string heap = kStudy + "[experiment.heap]\nmeasured = { pictures = ";
   const Measured measured = measured_in(

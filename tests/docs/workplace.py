@@ -300,6 +300,9 @@ def prepare(folder, root, repose):
     (folder / "nut.stl").write_text(stl_of(ellipsoid((11.2, 9.1, 8.7))), encoding="utf-8")
     (folder / "render.png").write_bytes(silhouette_png())
     (folder / "heap.ply").write_bytes(cone_ply())
+    (folder / "scans").mkdir()
+    for angle_deg in (26, 28):
+        (folder / "scans" / f"heap_{angle_deg}.ply").write_bytes(cone_ply(angle_deg))
     (folder / "particles.csv").write_text(particle_csv(packed_cone(25)), encoding="utf-8")
     (folder / "heap.vtu").write_text(particle_vtu(packed_cone(25)), encoding="utf-8")
     (folder / "heap.avi").write_bytes(grown_heap_avi())

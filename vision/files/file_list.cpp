@@ -118,6 +118,11 @@ constexpr FileKind kBoth{.name = "pictures or films",
                          .endings = kPictureEndings,
                          .more = kFilmEndings};
 
+constexpr FileKind kScans{.name = "scans",
+                          .done = "measured",
+                          .usual = ".ply, .obj, .stl or .glb",
+                          .endings = kScanEndings};
+
 constexpr FileKind kHeaps{
     .name = "pictures, films or scans",
     .done = "measured",
@@ -266,6 +271,8 @@ FileList list_pictures(const std::vector<std::string>& names) {
 }
 
 FileList list_films(const std::vector<std::string>& names) { return list_files(names, kFilms); }
+
+FileList list_scans(const std::vector<std::string>& names) { return list_files(names, kScans); }
 
 FileList list_pictures_and_films(const std::vector<std::string>& names) {
   return list_files(names, kBoth);

@@ -54,11 +54,13 @@ struct FileList {
 FileList list_pictures(const std::vector<std::string>& names);
 /// The same with films.
 FileList list_films(const std::vector<std::string>& names);
-/// The same with both. Of a folder's films those are left out that a camera took along with a
-/// picture of that name: they would count the same heap twice.
+/// The same with three-dimensional scans.
+FileList list_scans(const std::vector<std::string>& names);
+/// The same with pictures and films. Of a folder's films those are left out that a camera took
+/// along with a picture of that name: they would count the same heap twice.
 FileList list_pictures_and_films(const std::vector<std::string>& names);
 
-/// The same with three-dimensional scans, too. Of a folder's pictures and films those are left out
+/// The same with scans, too. Of a folder's pictures and films those are left out
 /// that have a scan's name: its texture, or the same heap once more.
 FileList list_heap_files(const std::vector<std::string>& names);
 

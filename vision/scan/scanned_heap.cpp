@@ -338,6 +338,9 @@ ScannedHeap measured_on(const std::vector<Eigen::Vector3d>& points, const HeapSe
   angle.camera_uncertainty_rad = 0;
   angle.definitions = slices.definitions;
   result.azimuth_sd_rad = sd_of(slices.angles());
+  const double toe = survey.threshold / std::tan(*angle.angle_rad);
+  result.map.with_toe = dilated(survey.heap.map, survey.heap.base,
+                                static_cast<int>(std::ceil(toe / survey.heap.map.plan.cell)));
   add_sizes(survey, volume_of(survey, *angle.angle_rad), *angle.angle_rad, result);
   warn_of_scan(slices, search.heap->others, result);
   return result;

@@ -46,7 +46,9 @@ struct ScanMap {
   int side = 0;  ///< cells across
   double cell = 0;
   std::vector<float> height;          ///< row by row; NaN: nothing seen
-  std::vector<std::uint8_t> is_heap;  ///< the heap's base
+  std::vector<std::uint8_t> is_heap;  ///< the heap's base, where it is clear of the roughness
+  /// And as far around it as its flanks need to come down to the ground; empty: refused.
+  std::vector<std::uint8_t> with_toe = {};
   std::vector<std::uint8_t> is_hole;  ///< unseen, and filled from around it
   std::array<double, 2> axis = {};    ///< from the map's corner
 };
@@ -92,7 +94,8 @@ inline constexpr int kAzimuths = 72;
 ///   that are registered wrongly tilt both;
 /// - a ground that is bent as a whole, by a bowl fitted to what is seen of it: its slope where the
 ///   window ends;
-/// - the surface between the grains, of which stands see more or less: a quarter of its relief, over
+/// - the surface between the grains, of which stands see more or less: a quarter of its relief,
+/// over
 ///   the window's length;
 /// - azimuths that were not seen: the scatter between octants, as a sample of a finite population
 ///   (Cochran, Sampling Techniques (1977), sec. 2.6);
