@@ -491,6 +491,16 @@ std::vector<WantedColumn> wanted_columns(const TableStudy& study) {
   return wanted;
 }
 
+void take_rows_without_runs(const TableStudy& study, Table& table, std::vector<std::string>& notes,
+                            base::Faults& faults) {
+  const OtherRows other =
+      take_other_rows(table, readings_of(study), Unlabelled::noted, faults, parameters_of(study));
+  for (const auto& [what, why] : other.left_out) {
+    notes.push_back(fmt::format("{}: {} is not used ({})", table.name, what, why));
+  }
+  notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+}
+
 /// Cells are not parted by commas, and some number has one.
 bool writes_decimal_commas(const Table& table) {
   if (table.delimiter == ',') return false;
@@ -526,13 +536,7 @@ TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesy
       notes.insert(notes.end(), pictured.notes.begin(), pictured.notes.end());
       found.texts.insert(found.texts.end(), pictured.fingerprints.begin(),
                          pictured.fingerprints.end());
-      const Names readings = readings_of(study);
-      const OtherRows other =
-          take_other_rows(table, readings, Unlabelled::noted, own, parameters_of(study));
-      for (const auto& [what, why] : other.left_out) {
-        notes.push_back(fmt::format("{}: {} is not used ({})", table.name, what, why));
-      }
-      notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+      take_rows_without_runs(study, table, notes, own);
       RowReader reader(study, table, own);
       std::vector<Row> rows = reader.rows();
       own.throw_if_any();
