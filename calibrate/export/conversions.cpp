@@ -1,6 +1,8 @@
 #include "calibrate/export/conversions.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -93,6 +95,28 @@ double exported(const std::vector<Conversion>& conversions, const std::string& c
     if (conversion.coefficient == coefficient) return conversion.exported;
   }
   return std::nan("");
+}
+
+std::pair<double, double> exported_bounds(const ExportFacts& facts, ExportTarget target,
+                                          const Conversion& conversion,
+                                          std::pair<double, double> ours) {
+  const std::string& name = conversion.coefficient;
+  const std::string pair = name.substr(0, name.rfind('.') + 1);
+  const Partner partner = pair == "contact.particle_particle." ? Partner::grain : Partner::wall;
+  const auto theirs = [&](double value) {
+    if (name.ends_with("restitution")) return restitution(target, pair, value).exported;
+    if (name.ends_with("sliding_friction")) return sliding(target, pair, value).exported;
+    return rolling(target, pair, partner, facts, value).exported;
+  };
+  const double one = theirs(ours.first), other = theirs(ours.second);
+  return {std::min(one, other), std::max(one, other)};
+}
+
+std::string pair_text(const std::string& coefficient) {
+  constexpr std::string_view kBefore = "contact.particle_";
+  const std::string other =
+      coefficient.substr(kBefore.size(), coefficient.rfind('.') - kBefore.size());
+  return "grain with " + (other == "particle" ? std::string("grain") : other);
 }
 
 std::vector<base::Fault> refusals(const ExportFacts& facts, const ExportRequest& request,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/input_error.h"
@@ -13,6 +15,14 @@ std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget ta
 
 /// The exported value of one: `conversions` as above. NaN for a pair that is not needed.
 double exported(const std::vector<Conversion>& conversions, const std::string& coefficient);
+
+/// What the target's coefficient is between two values of ours, the smaller first.
+std::pair<double, double> exported_bounds(const ExportFacts& facts, ExportTarget target,
+                                          const Conversion& conversion,
+                                          std::pair<double, double> ours);
+
+/// What a pair is called: "grain with wall" for "contact.particle_wall.restitution".
+std::string pair_text(const std::string& coefficient);
 
 /// What keeps a conversion from being written, a line each; empty: nothing does.
 std::vector<base::Fault> refusals(const ExportFacts& facts, const ExportRequest& request,

@@ -14,6 +14,9 @@ double shear_modulus_pa(const dem::Material& material) {
   return material.young_modulus_pa / (2 * (1 + material.poisson_ratio));
 }
 
+/// As much of a number that was worked out as anybody wants to type.
+std::string six_digits(double value) { return fmt::format("{:.6g}", value); }
+
 const char* edem_rolling_name(dem::RollingModel model) {
   switch (model) {
     case dem::RollingModel::relative_constant_torque:
@@ -65,18 +68,42 @@ void add_interaction(const std::string& pair, const std::string& other,
   }
 }
 
+/// What a heap is rebuilt from.
+void add_heap(const ExportFacts& facts, DeckFields& fields) {
+  const auto& protocol = facts.study().protocol<dem::HeapProtocol>();
+  const double stiffness = facts.stiffness(dem::experiment_of<dem::HeapProtocol>());
+  DeckFields& heap = fields.add_section("HEAP");
+  heap.set("STIFFNESS", stiffness);
+  heap.set("SOFT_GRAIN_SHEAR",
+           six_digits(stiffness * shear_modulus_pa(facts.study().model.grain_material)));
+  heap.set("SOFT_WALL_SHEAR",
+           six_digits(stiffness * shear_modulus_pa(facts.study().model.wall_material)));
+  heap.set("TUBE_DIAMETER", protocol.tube_diameter_m);
+  heap.set("TUBE_HEIGHT", protocol.tube_height_m);
+  heap.set("TUBE_THICKNESS", protocol.tube_thickness_m);
+  heap.set("LIFT_SPEED", protocol.lift_speed_m_s);
+  heap.set("PLATE", protocol.plate_m);
+  heap.set("GRAINS", grains_in_heap(facts));
+  heap.set("HOW_MANY", protocol.grains ? "by the study" : "about as many fill the tube");
+}
+
 ExportedFile values_text(const ExportFacts& facts, const Conversions& conversions) {
   const dem::Material& grain = facts.study().model.grain_material;
   const dem::Material& wall = facts.study().model.wall_material;
   DeckFields fields = common_fields(facts);
-  set_body(facts.grain(), grain.density_kg_m3, fields);
-  fields.set("VOLUME", facts.grain().volume_m3);
+  fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
+  fields.set("BODY_MASS", six_digits(facts.mass_kg()));
+  fields.set("VOLUME", six_digits(facts.grain().volume_m3));
+  const dem::Vector inertia = facts.mass_kg() * facts.grain().gyration_m2;
+  fields.set("IXX", six_digits(inertia.x()));
+  fields.set("IYY", six_digits(inertia.y()));
+  fields.set("IZZ", six_digits(inertia.z()));
   fields.set("DENSITY", grain.density_kg_m3);
   fields.set("GRAIN_YOUNG", grain.young_modulus_pa);
-  fields.set("GRAIN_SHEAR", shear_modulus_pa(grain));
+  fields.set("GRAIN_SHEAR", six_digits(shear_modulus_pa(grain)));
   fields.set("GRAIN_POISSON", grain.poisson_ratio);
   fields.set("WALL_YOUNG", wall.young_modulus_pa);
-  fields.set("WALL_SHEAR", shear_modulus_pa(wall));
+  fields.set("WALL_SHEAR", six_digits(shear_modulus_pa(wall)));
   fields.set("WALL_POISSON", wall.poisson_ratio);
   const EdemRolling rolling = rolling_in_edem(facts.study().model.rolling);
   fields.set("ROLLING_MODEL_NAME", edem_rolling_name(facts.study().model.rolling));
@@ -90,14 +117,11 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
     DeckFields& own = fields.add_section("PART");
     own.set("PART_NAME", name);
     own.set("PART_YOUNG", material.young_modulus_pa);
-    own.set("PART_SHEAR", shear_modulus_pa(material));
+    own.set("PART_SHEAR", six_digits(shear_modulus_pa(material)));
     own.set("PART_POISSON", material.poisson_ratio);
     add_interaction("contact.particle_" + name_of(part) + '.', name, conversions, rolling, fields);
   }
-  if (facts.has(dem::experiment_of<dem::HeapProtocol>())) {
-    fields.add_section("HEAP").set("STIFFNESS",
-                                   facts.stiffness(dem::experiment_of<dem::HeapProtocol>()));
-  }
+  if (facts.has(dem::experiment_of<dem::HeapProtocol>())) add_heap(facts, fields);
   for (const dem::Experiment experiment : facts.experiments()) {
     DeckFields& step = fields.add_section("STEP");
     step.set("EXPERIMENT", name_of(experiment));
@@ -106,19 +130,11 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   return {.name = "values.txt", .text = filled("edem/values.txt", fields)};
 }
 
-/// "wall" for "contact.particle_wall.restitution"; what grains do to each other is with "grain".
-std::string other_of(const std::string& coefficient) {
-  constexpr std::string_view kBefore = "contact.particle_";
-  const std::string other =
-      coefficient.substr(kBefore.size(), coefficient.rfind('.') - kBefore.size());
-  return other == "particle" ? "grain" : other;
-}
-
 std::string material_rows(const std::string& part, const dem::Material& material) {
   return fmt::format(
       "{0},Poisson's Ratio,{1},\n{0},Shear Modulus,{2},Pa\n{0},Solids Density,{3},"
       "kg/m3\n",
-      part, material.poisson_ratio, number(shear_modulus_pa(material)), material.density_kg_m3);
+      part, material.poisson_ratio, six_digits(shear_modulus_pa(material)), material.density_kg_m3);
 }
 
 ExportedFile values_table(const ExportFacts& facts, const Conversions& conversions) {
@@ -131,12 +147,10 @@ ExportedFile values_table(const ExportFacts& facts, const Conversions& conversio
   }
   const bool is_damped = rolling_in_edem(model.rolling).has_damping_ratio;
   for (const Conversion& conversion : conversions) {
-    const std::string other = other_of(conversion.coefficient);
-    text += fmt::format("grain with {},{},{},\n", other, conversion.target_name,
-                        number(conversion.exported));
+    const std::string pair = pair_text(conversion.coefficient);
+    text += fmt::format("{},{},{},\n", pair, conversion.target_name, number(conversion.exported));
     if (is_damped && conversion.coefficient.ends_with("rolling_friction")) {
-      text += fmt::format("grain with {},Rolling Viscous Damping Ratio,{},\n", other,
-                          kRollingDampingRatio);
+      text += fmt::format("{},Rolling Viscous Damping Ratio,{},\n", pair, kRollingDampingRatio);
     }
   }
   text +=
@@ -148,18 +162,20 @@ ExportedFile values_table(const ExportFacts& facts, const Conversions& conversio
   return {.name = "values.csv", .text = text};
 }
 
-ExportedFile clump_table(const dem::ClumpShape& grain) {
-  std::string text = "x_m,y_m,z_m,radius_m\n";
+/// To be pasted: Altair, EDEM documentation, "Add Multi-Sphere Particles". The spheres are about
+/// the centre of mass along the principal axes, as it wants them.
+ExportedFile sphere_table(const dem::ClumpShape& grain) {
+  std::string text = "Position X\tPosition Y\tPosition Z\tPhysical Radius\n";
   for (const dem::ClumpSphere& sphere : grain.spheres) {
-    text += fmt::format("{},{},{},{}\n", sphere.centre.x(), sphere.centre.y(), sphere.centre.z(),
+    text += fmt::format("{}\t{}\t{}\t{}\n", sphere.centre.x(), sphere.centre.y(), sphere.centre.z(),
                         sphere.radius);
   }
-  return {.name = "clump.csv", .text = text};
+  return {.name = "spheres.txt", .text = text};
 }
 
 std::vector<ExportedFile> edem_files(const ExportFacts& facts, const Conversions& conversions) {
   return {values_text(facts, conversions), values_table(facts, conversions),
-          clump_table(facts.grain())};
+          sphere_table(facts.grain())};
 }
 
 std::string edem_program(dem::RollingModel model) {
@@ -222,6 +238,8 @@ ExportTarget edem_target() {
                                        .takes_incline_material = true,
                                        .program = edem_program,
                                        .restitution = edem_restitution,
+                                       .heap_file = "heap.csv",
+                                       .heap_unit = "",
                                        .sliding_name = "Coefficient of Static Friction",
                                        .sliding_limits = "",
                                        .rolling_name = "Coefficient of Rolling Friction",

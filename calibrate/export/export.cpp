@@ -9,10 +9,12 @@
 #include "base/input_error.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/facts.h"
+#include "calibrate/export/further_runs.h"
 #include "calibrate/export/readme.h"
 #include "calibrate/export/target_entry.h"
 #include "calibrate/result/result.h"
 #include "calibrate/result/result_text.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 
@@ -45,6 +47,20 @@ std::vector<std::vector<double>> exported_sets(const StudyResult& result) {
     sets.back().push_back(value);
   }
   return sets;
+}
+
+std::vector<BenchMean> bench_means_of(const StudyResult& result) {
+  std::vector<BenchMean> readings;
+  const auto* joint = std::get_if<JointResult>(&result.found);
+  if (joint == nullptr) return readings;
+  for (const ResultObservable& one : joint->observables) {
+    if (dem::find_experiment(one.name) == nullptr) continue;
+    readings.push_back({.experiment = one.name,
+                        .unit = one.unit,
+                        .mean = one.measured,
+                        .uncertainty = one.measured_uncertainty});
+  }
+  return readings;
 }
 
 namespace {
@@ -115,14 +131,17 @@ std::string name_of(Fidelity fidelity) {
 
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<FittedValue>& fitted, const ExportRequest& request,
-                         const std::vector<std::vector<double>>& sets) {
+                         const std::vector<std::vector<double>>& sets,
+                         const std::vector<BenchMean>& bench) {
   const ExportFacts facts(study, grain, of_set(fitted, sets, request.set_number), request.target);
   StudyExport made{.conversions = conversions_of(facts, request.target)};
   base::Faults faults;
   faults.add_all(refusals(facts, request, made.conversions));
   faults.throw_if_any();
   made.files = request.target->files(facts, made.conversions);
-  made.files.push_back(readme_of(facts, request, made.conversions, sets));
+  const FurtherRuns further = further_runs(facts, request.target, made.conversions, bench);
+  if (!further.readings.empty()) made.files.push_back(further_runs_study(facts, further));
+  made.files.push_back(readme_of(facts, request, made.conversions, sets, further));
   made.warnings = warnings_of(facts);
   return made;
 }

@@ -51,6 +51,18 @@ std::vector<FittedValue> fitted_values(const StudyResult& result);
 /// together. Each in the order of fitted_values().
 std::vector<std::vector<double>> exported_sets(const StudyResult& result);
 
+/// What the bench gave for an experiment.
+struct BenchMean {
+  std::string experiment = {};  ///< by name
+  std::string unit = {};
+  double mean = 0;
+  double uncertainty = 0;  ///< standard uncertainty of the mean
+};
+
+/// Of the experiments whose own reading was measured and fitted; the published method's have no
+/// uncertainty, and are left out.
+std::vector<BenchMean> bench_means_of(const StudyResult& result);
+
 /// How well the target's law stands for ours.
 enum class Fidelity {
   exact,        ///< the same equation
@@ -96,11 +108,13 @@ struct ExportRequest {
 /// @param study   as simulated; coefficients that were sought are NaN in it, or have their value
 /// @param fitted  names and intervals, and the values unless there are sets
 /// @param sets    of exported_sets(): request.set_number says which one; or none
+/// @param bench   what further runs of the target are calibrated to
 /// @throws base::InputError  there is no set of that number; or a coefficient without a value,
 ///   or one that the target cannot have or has only approximately: all of them, a line each.
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<FittedValue>& fitted, const ExportRequest& request,
-                         const std::vector<std::vector<double>>& sets = {});
+                         const std::vector<std::vector<double>>& sets = {},
+                         const std::vector<BenchMean>& bench = {});
 
 /// Writes each file whole or not at all, in place of those of an earlier export; makes the folder.
 /// @param is_ours  files of these names that are there are of an earlier version of repose

@@ -312,6 +312,8 @@ ExportTarget liggghts_target() {
       .takes_incline_material = true,
       .program = liggghts_program,
       .restitution = liggghts_restitution,
+      .heap_file = "heap.dump",
+      .heap_unit = "m",
       .sliding_name = "coefficientFriction",
       .sliding_limits =
           "Their spring keeps its force when the contact unloads, ours shrinks with the contact: "

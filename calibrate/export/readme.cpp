@@ -72,6 +72,34 @@ void add_sizes(const ExportFacts& facts, ExportTarget target, DeckFields& fields
                                           : "The grains of these decks all have the mean size.");
 }
 
+/// How a heap of that program is measured and compared with the bench's.
+void add_heap_back(const ExportFacts& facts, ExportTarget target, DeckFields& fields) {
+  if (!facts.has(dem::experiment_of<dem::HeapProtocol>())) return;
+  const std::string unit =
+      target->heap_unit.empty() ? std::string() : fmt::format(" --unit {}", target->heap_unit);
+  DeckFields& heap = fields.add_section("HEAP_BACK");
+  heap.set_lines("SAVING", text_of(target, "heap_back.txt"));
+  heap.set("FILE", std::string(target->heap_file));
+  heap.set("UNIT", unit);
+  heap.set("DEFINITION", heap_definition(facts));
+}
+
+void add_further_runs(const FurtherRuns& further, DeckFields& fields) {
+  if (further.readings.empty()) return;
+  DeckFields& runs = fields.add_section("FURTHER");
+  runs.set("STUDY_FILE", kFurtherRunsFile);
+  runs.set("COUNT", further.first_count());
+  runs.set("MORE", further.next_count());
+  runs.set("VARIED", further.parameters_text());
+  for (const BenchMean& reading : further.readings) {
+    DeckFields& one = runs.add_section("BENCH");
+    one.set("EXPERIMENT", reading.experiment);
+    one.set("MEAN", fmt::format("{:.4g}", reading.mean));
+    one.set("UNCERTAINTY", fmt::format("{:.2g}", reading.uncertainty));
+    one.set("READING_UNIT", reading.unit);
+  }
+}
+
 /// All of them, in our definitions.
 void add_sets(const ExportFacts& facts, const ExportRequest& request,
               const std::vector<std::vector<double>>& sets, DeckFields& fields) {
@@ -94,7 +122,7 @@ void add_sets(const ExportFacts& facts, const ExportRequest& request,
 
 ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
                        const std::vector<Conversion>& conversions,
-                       const std::vector<std::vector<double>>& sets) {
+                       const std::vector<std::vector<double>>& sets, const FurtherRuns& further) {
   const ExportTarget target = request.target;
   DeckFields fields = common_fields(facts);
   add_sets(facts, request, sets, fields);
@@ -104,6 +132,8 @@ ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
   fields.set("HEAP_STIFFNESS", heap_stiffness_text(facts));
   fields.set_lines("RUNNING", text_of(target, "running.txt"));
   fields.set_lines("LIMITS", text_of(target, "limits.txt"));
+  add_heap_back(facts, target, fields);
+  add_further_runs(further, fields);
   add_left_out(facts, target, fields);
   add_sizes(facts, target, fields);
   for (const Conversion& conversion : conversions) add_conversion(conversion, fields);

@@ -4,6 +4,7 @@
 
 #include "calibrate/export/export.h"
 #include "calibrate/export/facts.h"
+#include "calibrate/export/further_runs.h"
 
 namespace repose::calibrate {
 
@@ -12,6 +13,6 @@ namespace repose::calibrate {
 /// @param sets  those that fit as well as each other; of a single one nothing is said
 ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
                        const std::vector<Conversion>& conversions,
-                       const std::vector<std::vector<double>>& sets);
+                       const std::vector<std::vector<double>>& sets, const FurtherRuns& further);
 
 }  // namespace repose::calibrate

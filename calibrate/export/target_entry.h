@@ -23,8 +23,8 @@ struct RestitutionCounterpart {
 };
 
 /// All that is to be known of a program that studies are exported to. NAME.cpp has its decks and
-/// NAME_target(), and templates/NAME what they are filled into, limits.txt and running.txt besides;
-/// its line is in export_targets().
+/// NAME_target(), and templates/NAME what they are filled into, limits.txt, running.txt and
+/// heap_back.txt besides; its line is in export_targets().
 struct TargetEntry {
   std::string_view name;        ///< on the command line, and of its folders
   std::string_view summary;     ///< what is written for it
@@ -33,6 +33,8 @@ struct TargetEntry {
   /// As its makers write it, and the version that the decks are written for.
   std::string (*program)(dem::RollingModel model);
   RestitutionCounterpart (*restitution)(double ours);
+  std::string_view heap_file;                           ///< with a heap's spheres: heap_back.txt
+  std::string_view heap_unit;                           ///< its unit; empty: the file says it
   std::string_view sliding_name;                        ///< what it calls sliding friction
   std::string_view sliding_limits;                      ///< what of it does not carry over
   std::string_view rolling_name;                        ///< what it calls rolling friction

@@ -217,7 +217,9 @@ ExportTarget yade_target() {
       .takes_incline_material = false,  // its contacts all have one rolling friction
       .program = yade_program,
       .restitution = yade_restitution,
-      .sliding_name = "frictAngle, its tangent",
+      .heap_file = "heap.txt",
+      .heap_unit = "",
+      .sliding_name = "tangent of frictAngle",
       .sliding_limits =
           "Their spring keeps its force when the contact unloads, ours shrinks with the contact: "
           "oblique impacts cause slightly more spin.",

@@ -120,7 +120,8 @@ struct FitSettings {
   int max_jobs = 2000;
   int max_rounds = 6;      ///< the first included
   std::uint64_t seed = 1;  ///< of the jobs, which count on from it, and of the fit's own chance
-  bool robust = false;     ///< Cauchy's loss: an observable that fits nothing else counts less
+  bool are_runs_given = false;  ///< somebody else makes them: there is no budget to enlarge
+  bool robust = false;          ///< Cauchy's loss: an observable that fits nothing else counts less
 };
 
 /// A number of the study that no fit seeks, changed.

@@ -182,10 +182,10 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
     }
     if (would_narrow &&
         solution.misfit.surrogate_variance_fraction(i, solution.best.point) > kSurrogateFraction) {
-      warnings.push_back(
-          fmt::format("{}: the simulations are less certain than the measurement: a "
-                      "larger budget would narrow the intervals",
-                      fitted.name));
+      warnings.push_back(fmt::format(
+          "{}: the simulations are less certain than the measurement: {} would narrow "
+          "the intervals",
+          fitted.name, problem.settings.are_runs_given ? "more runs" : "a larger budget"));
     }
   }
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {

@@ -252,9 +252,11 @@ void add_narrowing(const JointResult& joint, Chapter& chapter) {
   if (table.data.rows.empty()) return;
   chapter.blocks.push_back(Heading{"What would narrow the intervals"});
   chapter.blocks.push_back(std::move(table));
-  chapter.blocks.push_back(Paragraph{
-      "Roughly foreseen from the fit. Where exact simulation would hardly narrow an interval, a "
-      "larger budget is no use: measure more, or another experiment."});
+  chapter.blocks.push_back(
+      Paragraph{fmt::format("Roughly foreseen from the fit. Where exact simulation would hardly "
+                            "narrow an interval, {} no "
+                            "use: measure more, or another experiment.",
+                            joint.verdict ? "a larger budget is" : "more runs are")});
 }
 
 Table correlation_table(const JointResult& joint) {

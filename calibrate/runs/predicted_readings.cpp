@@ -14,6 +14,7 @@
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/surrogate.h"
 #include "calibrate/result/result.h"
+#include "calibrate/runs/table_columns.h"
 #include "calibrate/statistics/table/table.h"
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/study_record.h"
@@ -107,7 +108,12 @@ KnownRuns known_runs_in(const fs::path& folder) {
 
 std::vector<std::vector<double>> places_in(const fs::path& file,
                                            const std::vector<Parameter>& parameters) {
-  const Table table = read_table(file);
+  Table table = read_table(file);
+  std::vector<WantedColumn> wanted;
+  for (const Parameter& parameter : parameters) wanted.push_back({parameter.name});
+  std::vector<std::string> notes;
+  base::Faults no_units;  // parameters have none
+  take_names_without_units(wanted, table, notes, no_units);
   std::vector<NumberColumn> columns;
   for (const Parameter& parameter : parameters) {
     const bool has_it = table.column(parameter.name).has_value();

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "base/text.h"
+#include "calibrate/statistics/table/other_rows.h"
 
 namespace repose::calibrate {
 namespace {
@@ -89,6 +90,45 @@ bool holds_numbers(const Table& table, std::size_t place) {
 }
 
 }  // namespace
+
+namespace {
+
+/// A column's name, and what stands in brackets behind it; no unit: there are no brackets.
+WantedColumn parted(const std::string& column) {
+  for (const auto& [open, close] : {std::pair('[', ']'), {'(', ')'}}) {
+    const std::size_t start = column.find(open);
+    if (start == 0 || start == std::string::npos || column.back() != close) continue;
+    const std::size_t end = column.find_last_not_of(" _", start - 1);
+    if (end == std::string::npos) continue;
+    return {column.substr(0, end + 1), column.substr(start)};
+  }
+  return {column};
+}
+
+}  // namespace
+
+void take_names_without_units(const std::vector<WantedColumn>& wanted, Table& table,
+                              std::vector<std::string>& notes, base::Faults& faults) {
+  for (const auto& [name, unit] : wanted) {
+    if (table.column(name)) continue;
+    const auto is_it = [&](const std::string& column) {
+      const WantedColumn both = parted(column);
+      return !both.unit.empty() && both.name == name;
+    };
+    if (std::ranges::count_if(table.columns, is_it) != 1) continue;
+    std::string& column = *std::ranges::find_if(table.columns, is_it);
+    const std::string theirs = unit_in(parted(column).unit), ours = unit_in(unit);
+    if (!theirs.empty() && !ours.empty() && theirs != ours) {
+      faults.add(
+          {.where = table.name,
+           .value = fmt::format("\"{}\" is in another unit than {} in the study, which is in {}",
+                                column, name, unit),
+           .fix = "convert its numbers, or correct the unit."});
+    }
+    notes.push_back(fmt::format("{}: \"{}\" is taken for {}.", table.name, column, name));
+    column = name;
+  }
+}
 
 TableColumns columns_of(const TableStudy& study, const Table& table, base::Faults& faults) {
   TableColumns found;

@@ -35,6 +35,19 @@ struct TableColumns {
   std::vector<std::string> unused;
 };
 
+/// What a study calls a column, and the unit in which it means it; empty: any.
+struct WantedColumn {
+  std::string name;
+  std::string unit = {};
+};
+
+/// Calls columns by the names wanted that have a unit in brackets behind them: "sliding friction
+/// [-]" is "sliding friction" where no column is called just so.
+/// @param notes   each, a sentence
+/// @param faults  columns in another unit than is meant
+void take_names_without_units(const std::vector<WantedColumn>& wanted, Table& table,
+                              std::vector<std::string>& notes, base::Faults& faults);
+
 /// @param faults  columns that are missing are added
 TableColumns columns_of(const TableStudy& study, const Table& table, base::Faults& faults);
 

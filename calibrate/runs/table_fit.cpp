@@ -13,8 +13,10 @@
 
 #include "base/atomic_file.h"
 #include "base/fingerprint.h"
+#include "base/folder_lock.h"
 #include "base/input_error.h"
 #include "base/version.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/fit/agreement.h"
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/points.h"
@@ -24,6 +26,7 @@
 #include "calibrate/fit/warnings.h"
 #include "calibrate/result/result_of.h"
 #include "calibrate/run/run_study.h"
+#include "calibrate/runs/odd_readings.h"
 #include "calibrate/study/study_record.h"
 
 namespace repose::calibrate {
@@ -113,19 +116,35 @@ bool misses_a_reading(const JointFit& fit) {
   });
 }
 
-std::string unchecked_text(const JointFit& fit) {
+std::string unchecked_text(const JointFit& fit, const std::vector<OddReading>& odd) {
   if (misses_a_reading(fit)) {
-    return fmt::format(
-        "no parameters within the bounds give these readings: the nearest give {} (standard "
-        "uncertainties), and say nothing of the material. Check units and columns of the table and "
-        "of [measured]; else widen the bounds and add runs there",
-        surfaces_text(fit));
+    std::string first;
+    for (const OddReading& one : odd) {
+      first += fmt::format("{}{}", first.empty() ? "first look at " : "; and ", one.text());
+    }
+    if (!first.empty()) first += ": a slip there leads the surfaces astray. As it is, ";
+    return first +
+           fmt::format(
+               "no parameters within the bounds give these readings: the nearest give {} (standard "
+               "uncertainties), and say nothing of the material. Check units and columns of the "
+               "table and "
+               "of [measured]; else widen the bounds and add runs there",
+               surfaces_text(fit));
   }
   return fmt::format(
       "the fit rests on surfaces through the table's runs, which give {} (standard uncertainties) "
       "at the fitted parameters. To check them, run them with your program, add the row to the "
       "table, and calibrate again",
       surfaces_text(fit));
+}
+
+void note_odd(const std::vector<OddReading>& odd, std::vector<std::string>& notes) {
+  for (const OddReading& one : odd) {
+    notes.push_back(fmt::format(
+        "{}. It counts, and widens what is known of {}. If the reading or a parameter of that row "
+        "is a slip, correct it; if the run went wrong, write failed in place of the reading.",
+        one.text(), one.name));
+  }
 }
 
 /// A parameter that is the same in all rows.
@@ -188,6 +207,7 @@ Problem problem_of(const TableStudy& study, const TableRuns& table) {
   }
   problem.offers = table.others;
   // Nothing is simulated: there is no budget.
+  problem.settings.are_runs_given = true;
   problem.settings.budget_s = 1e9;
   problem.settings.max_jobs = 1'000'000;
   return problem;
@@ -221,12 +241,33 @@ std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns&
   return faults;
 }
 
-StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
-  const Problem problem = problem_of(study, table);
+namespace {
+
+Problem sound_problem_of(const TableStudy& study, const TableRuns& table) {
+  Problem problem = problem_of(study, table);
   base::Faults faults;
   faults.add_all(too_few_places(problem, table));
   faults.throw_if_any();
   require_sound(problem);
+  return problem;
+}
+
+/// The one that studies have which repose simulates itself: a folder is of one or the other.
+base::FolderLock locked(const fs::path& folder) {
+  const fs::path file = lock_file_in(folder);
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  if (error) {
+    base::refuse(folder, fmt::format("cannot be made ({})", error.message()),
+                 "choose another folder.");
+  }
+  return {folder, file};
+}
+
+}  // namespace
+
+StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
+  const Problem problem = sound_problem_of(study, table);
   const std::vector<Run> runs = in_order(problem, table.runs);
   const Solution solution = solve(problem, runs);
   JointFit fit = fit_of(problem, runs, solution, {});
@@ -236,12 +277,14 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
   }
   if (misses_a_reading(fit)) withdraw_intervals(problem, fit);
   JointResult joint = fitted_result(problem, fit, runs);
-  joint.agreement.text = unchecked_text(fit);
+  const std::vector<OddReading> odd = odd_readings(problem, table);
+  joint.agreement.text = unchecked_text(fit, odd);
   for (const Observable& observable : problem.held_out) {
     joint.held_out.push_back(predicted(problem, observable, solution, runs));
   }
   joint.warnings = study.notes;
   joint.warnings.insert(joint.warnings.end(), table.notes.begin(), table.notes.end());
+  note_odd(odd, joint.warnings);
   note_constant(study, table, joint.warnings);
   note_extrapolation(study, table, joint.warnings);
   joint.warnings.insert(joint.warnings.end(), fit.warnings.begin(), fit.warnings.end());
@@ -270,18 +313,14 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
     faults.add_all(error.faults());
   }
   faults.throw_if_any();
+  sound_problem_of(*study, *table);  // before a folder is made
+  const base::FolderLock lock = locked(folder);
   std::optional<StudyResult> result;
   try {
     const FitWatch watch(is_interrupted);
     result = fit_table(*study, *table);
   } catch (const FitInterrupted&) {
     return std::nullopt;
-  }
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    base::refuse(folder, fmt::format("cannot be made ({})", error.message()),
-                 "choose another folder.");
   }
   const StudyIdentity& identity = result->provenance.study;
   set_aside_old_result(folder, identity, note);

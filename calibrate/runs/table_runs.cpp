@@ -25,6 +25,7 @@ using Names = std::vector<std::string>;
 /// A row, as far as it is numbers.
 struct Row {
   int line = 0;
+  std::string where;                                   ///< "runs.csv:14"
   std::vector<double> values;                          ///< of the parameters
   std::map<std::string, std::optional<double>> reads;  ///< none: empty, or the run failed
   std::map<std::string, double> sds;
@@ -48,7 +49,10 @@ class RowReader {
 
   std::vector<Row> rows() {
     std::vector<Row> rows(table_.rows.size());
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].line = table_.rows[k].line;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].line = table_.rows[k].line;
+      rows[k].where = fmt::format("{}:{}", table_.name, rows[k].line);
+    }
     if (!faults_.empty()) return rows;
     read_numbers(rows);
     for (std::size_t k = 0; k < rows.size(); ++k) read_words(table_.rows[k], rows[k]);
@@ -383,6 +387,7 @@ class Collector {
       }
       has_any = true;
       found_.runs.push_back(*run);
+      found_.run_rows.push_back(row.where);
     }
     if (has_failed) ++found_.failed;
     if (!has_any && !has_failed) ++found_.without_reading;
@@ -431,6 +436,10 @@ class Collector {
 /// What became of the columns, where that may not be what was meant.
 void note_columns(const Table& table, const TableColumns& columns, const std::vector<Row>& rows,
                   const Names& unknown_words, std::vector<std::string>& notes) {
+  if (table.has_unnamed_row_numbers) {
+    notes.push_back(fmt::format(
+        "{}: the first column has no name and is taken for the rows' numbers.", table.name));
+  }
   if (!columns.unused.empty()) {
     notes.push_back(fmt::format("{}: not used: {}.", table.name, fmt::join(columns.unused, ", ")));
   }
@@ -467,6 +476,31 @@ void note_columns(const Table& table, const TableColumns& columns, const std::ve
   }
 }
 
+Names parameters_of(const TableStudy& study) {
+  Names names;
+  for (const Parameter& parameter : study.parameters) names.push_back(parameter.name);
+  return names;
+}
+
+std::vector<WantedColumn> wanted_columns(const TableStudy& study) {
+  std::vector<WantedColumn> wanted;
+  for (const Parameter& parameter : study.parameters) wanted.push_back({parameter.name});
+  for (const auto* observables : {&study.measured, &study.held_out}) {
+    for (const Observable& one : *observables) wanted.push_back({one.name, one.unit});
+  }
+  return wanted;
+}
+
+void take_rows_without_runs(const TableStudy& study, Table& table, std::vector<std::string>& notes,
+                            base::Faults& faults) {
+  const OtherRows other =
+      take_other_rows(table, readings_of(study), Unlabelled::noted, faults, parameters_of(study));
+  for (const auto& [what, why] : other.left_out) {
+    notes.push_back(fmt::format("{}: {} is not used ({})", table.name, what, why));
+  }
+  notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+}
+
 /// Cells are not parted by commas, and some number has one.
 bool writes_decimal_commas(const Table& table) {
   if (table.delimiter == ',') return false;
@@ -490,23 +524,19 @@ TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesy
       found.texts.push_back(base::read_whole_file(file));
       Table table = parse_table(file.string(), found.texts.back(), no_rows);
       found.files.push_back(file.filename().string());
+      base::Faults own;
+      take_names_without_units(wanted_columns(study), table, notes, own);
       if (found.columns.empty()) {
         found.columns = table.columns;
         // Others than the usual ones are told by a line of their own, which rows have not.
         found.delimiter = table.delimiter == '|' ? ';' : table.delimiter;
         found.has_decimal_comma = writes_decimal_commas(table);
       }
-      base::Faults own;
       const PicturedCells pictured = measure_pictured_cells(study, file.parent_path(), table, own);
       notes.insert(notes.end(), pictured.notes.begin(), pictured.notes.end());
       found.texts.insert(found.texts.end(), pictured.fingerprints.begin(),
                          pictured.fingerprints.end());
-      const Names readings = readings_of(study);
-      const OtherRows other = take_other_rows(table, readings, Unlabelled::noted, own);
-      for (const auto& [what, why] : other.left_out) {
-        notes.push_back(fmt::format("{}: {} is not used ({})", table.name, what, why));
-      }
-      notes.insert(notes.end(), other.notes.begin(), other.notes.end());
+      take_rows_without_runs(study, table, notes, own);
       RowReader reader(study, table, own);
       std::vector<Row> rows = reader.rows();
       own.throw_if_any();

@@ -15,6 +15,7 @@ struct TableRuns {
   /// Of each reading by itself, which is its own experiment: a row gives a run of each that it has
   /// a number of. Rows that failed are counted, and give none.
   std::vector<Run> runs;
+  std::vector<std::string> run_rows;  ///< where each of these stands: "runs.csv:14"
   /// Columns of numbers that the study does not name, with their runs: what measuring them would
   /// tell is advised.
   std::vector<Offer> others;

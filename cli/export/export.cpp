@@ -64,8 +64,9 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
                  "run the same repose calibrate command again; it resumes.");
   }
   sets = calibrate::exported_sets(*result);
-  StudyExport made = calibrate::export_study(record.study, record.grain.shape,
-                                             calibrate::fitted_values(*result), request, sets);
+  StudyExport made =
+      calibrate::export_study(record.study, record.grain.shape, calibrate::fitted_values(*result),
+                              request, sets, calibrate::bench_means_of(*result));
   const std::string shape = dem::warning_of_shape(record.grain);
   if (!shape.empty()) made.warnings.push_back(shape);
   return made;

@@ -1,6 +1,7 @@
 // Do heaps of the exported decks for LIGGGHTS or YADE stand at the angle of our own? Same clump,
 // contact law, coefficients, stiffness and time step; each engine fills its tube in its own way.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -60,6 +61,7 @@ std::vector<dem::ClumpSphere> spheres_in(const std::filesystem::path& file, int 
   for (int k = 0; k < head; ++k) std::getline(in, line);
   std::vector<dem::ClumpSphere> spheres;
   while (std::getline(in, line)) {
+    std::ranges::replace(line, ',', ' ');
     std::istringstream words(line);
     std::string skipped;
     for (int k = 0; k < before; ++k) words >> skipped;
@@ -76,7 +78,7 @@ Heap their_heap(const calibrate::StudyExport& decks, calibrate::ExportTarget tar
   std::vector<dem::ClumpSphere> spheres;
   if (target == calibrate::yade_target()) {
     testing::run_deck(folder, target, "heap", {std::to_string(number + 1)});
-    spheres = spheres_in(folder.path() / "heap.txt", 0, 0);
+    spheres = spheres_in(folder.path() / "heap.txt", 1, 0);
   } else {
     constexpr int kSmallestSeed = 20000, kApart = 1000, kHead = 9, kIdAndType = 2;
     const std::string seed = std::to_string(prime_from(kSmallestSeed + kApart * number));

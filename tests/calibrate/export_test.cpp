@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "dem/contact/restitution.h"
@@ -69,7 +70,7 @@ TEST(ExportStudy, EachProgramHasItsDecksAndAReadme) {
        {"drop.lig", "tilt.lig", "roll.lig", "heap.lig", "clump.txt", "tube.stl"}},
       {lammps_target(), {"drop.lmp", "tilt.lmp", "roll.lmp", "tilt_body.txt"}},
       {yade_target(), {"drop.py", "tilt.py", "roll.py", "heap.py", "grain.py"}},
-      {edem_target(), {"values.csv", "values.txt", "clump.csv"}}};
+      {edem_target(), {"values.csv", "values.txt", "spheres.txt"}}};
   for (const auto& [target, names] : expected) {
     const StudyExport made = exported(hazelnuts(), target);
     for (const std::string& name : names) EXPECT_THAT(names_of(made), Contains(name));
@@ -300,6 +301,105 @@ TEST(ExportStudy, EdemIsToldItsOwnNameOfTheRollingModel) {
     EXPECT_THAT(file_text(made, "values.csv"),
                 HasSubstr("grain with wall,Coefficient of Rolling Friction,"));
   }
+}
+
+// What a heap is rebuilt from stands beside the coefficients and how well these are known.
+TEST(ExportStudy, EdemIsToldHowToRebuildTheHeap) {
+  dem::Study study = hazelnuts();
+  dem::HeapProtocol protocol;
+  protocol.tube_diameter_m = .07;
+  protocol.lift_speed_m_s = .045;
+  protocol.grains = 321;
+  study.experiments[dem::experiment_of<dem::HeapProtocol>()].protocol = protocol;
+  study.model.grain_material.young_modulus_pa = 1.234567891e9;
+  const StudyExport made = export_study(
+      study, study.model.grain,
+      {{.name = kWallRolling, .value = .1, .low = .02, .high = .2, .verdict = "bounded"}},
+      {.target = edem_target()});
+  const std::string values = file_text(made, "values.txt");
+  EXPECT_THAT(values, AllOf(HasSubstr("inner diameter 0.07 m"), HasSubstr("321 (by the study)"),
+                            HasSubstr("0.045 m/s"), HasSubstr("9.80665 m/s^2"),
+                            HasSubstr("interval 0.02 to 0.2: bounded"),
+                            HasSubstr("times 0.01, as simulated here: nut 4.47307e+06 Pa")))
+      << values;
+}
+
+/// Spheres as a table with tabs has them, below its headings.
+std::vector<dem::ClumpSphere> pasted(const std::string& table) {
+  std::istringstream lines(table);
+  std::string headings;
+  std::getline(lines, headings);
+  EXPECT_EQ(std::count(headings.begin(), headings.end(), '\t'), 3);
+  std::vector<dem::ClumpSphere> spheres;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\t'), 3);
+    std::istringstream words(line);
+    dem::ClumpSphere& sphere = spheres.emplace_back();
+    words >> sphere.centre.x() >> sphere.centre.y() >> sphere.centre.z() >> sphere.radius;
+  }
+  return spheres;
+}
+
+TEST(ExportStudy, EdemsSpheresCanBePasted) {
+  const dem::Study study = hazelnuts();
+  const auto spheres = pasted(file_text(exported(study, edem_target()), "spheres.txt"));
+  ASSERT_EQ(spheres.size(), study.model.grain.spheres.size());
+  for (std::size_t k = 0; k < spheres.size(); ++k) {
+    EXPECT_EQ(spheres[k].centre, study.model.grain.spheres[k].centre);
+    EXPECT_EQ(spheres[k].radius, study.model.grain.spheres[k].radius);
+  }
+}
+
+dem::Coefficient sought(double min, double max) {
+  dem::Coefficient coefficient;
+  coefficient.min = min;
+  coefficient.max = max;
+  return coefficient;
+}
+
+/// Grains' friction is not determined, and their restitution is: by a heap and a drop.
+StudyExport to_be_run_further(ExportTarget target, const std::string& verdict = "bounded") {
+  dem::Study study = hazelnuts();
+  study.particle_particle.restitution = sought(.1, .9);
+  study.particle_particle.rolling_friction = sought(.02, .3);
+  study.experiments[dem::experiment_of<dem::HeapProtocol>()].definition = "whole_flank";
+  return export_study(
+      study, study.model.grain,
+      {{.name = "contact.particle_particle.restitution",
+        .value = .5,
+        .low = .45,
+        .high = .55,
+        .verdict = "determined"},
+       {.name = "contact.particle_particle.rolling_friction", .value = .1, .verdict = verdict}},
+      {.target = target, .takes_approximate = true}, {},
+      {{.experiment = "drop", .unit = "mm", .mean = 9, .uncertainty = .5},
+       {.experiment = "heap", .unit = "deg", .mean = 23.4, .uncertainty = .25}});
+}
+
+TEST(ExportStudy, FurtherRunsVaryWhatIsNotDetermined) {
+  const std::string study = file_text(to_be_run_further(edem_target()), "further_runs.toml");
+  EXPECT_THAT(
+      study,
+      AllOf(HasSubstr("\"grain with grain: Coefficient of Rolling Friction\" = { min = 0.02, "
+                      "max = 0.3 }"),
+            HasSubstr("heap = { mean = 23.4, sd = 0.25, n = 1, unit = \"deg\", definition = "
+                      "\"whole_flank\" }"),
+            Not(HasSubstr("drop = ")), Not(HasSubstr("Restitution\" ="))));
+  EXPECT_THAT(
+      file_text(to_be_run_further(edem_target(), "determined"), "further_runs.toml"),
+      HasSubstr("\"grain with grain: Coefficient of Restitution\" = { min = 0.1, max = 0.9 }"));
+  // A damper falls where restitution rises.
+  const std::string dampers =
+      file_text(to_be_run_further(yade_target(), "determined"), "further_runs.toml");
+  EXPECT_THAT(dampers,
+              HasSubstr(fmt::format("\"grain with grain: betan\" = {{ min = {:.6g}, max = "
+                                    "{:.6g} }}",
+                                    dem::damping_factor(.9) / 2, dem::damping_factor(.1) / 2)));
+  // LAMMPS has no heap, and grains touch in no other experiment of the study.
+  EXPECT_THAT(names_of(to_be_run_further(lammps_target())), Not(Contains("further_runs.toml")));
+  EXPECT_THAT(file_text(to_be_run_further(lammps_target()), "README.txt"),
+              AllOf(HasSubstr("repose measure heap.dump --unit m --definition whole_flank"),
+                    Not(HasSubstr("repose ask"))));
 }
 
 TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {

@@ -369,6 +369,9 @@ TEST(JointFit, MoreSimulationsAreAdvisedWhereTheyWouldNarrow) {
   EXPECT_THAT(noisy.parameters[0].advice, AllOf(HasSubstr("simulate more: means known exactly"),
                                                 Not(HasSubstr("take more bench readings"))));
   EXPECT_THAT(noisy.warnings, Contains(HasSubstr("a larger budget would narrow the intervals")));
+  problem.settings.are_runs_given = true;
+  EXPECT_THAT(fit_jointly(problem, runs).warnings,
+              Contains(HasSubstr("more runs would narrow the intervals")));
   EXPECT_THAT(plate_fit(plate(39.5, .9, 10)).parameters[0].advice, Not(HasSubstr("simulate more")));
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "base/units.h"
 #include "calibrate/fit/surrogate.h"
 #include "calibrate/report/study_report.h"
+#include "calibrate/runs/odd_readings.h"
 #include "calibrate/runs/table_runs.h"
 #include "calibrate/runs/table_study.h"
 #include "calibrate/study/study_record.h"
@@ -103,6 +105,7 @@ TEST_F(TableStudyTest, OneReadingIsAsUncertainAsItsSdSays) {
   EXPECT_EQ(standard_uncertainty(read.measured[0]), 1);
   EXPECT_TRUE(std::isinf(degrees_of_scatter(read.measured[0])));
   EXPECT_THAT(errors_of(problem_of(read, {})), IsEmpty());
+  EXPECT_TRUE(problem_of(read, {}).settings.are_runs_given);
 }
 
 TEST_F(TableStudyTest, ReadsASheetOfNumbers) {
@@ -292,6 +295,84 @@ TEST_F(TableRunsTest, TellsRepeatsFromCopies) {
   EXPECT_FALSE(has_chance(problem.experiments[0], in_order(problem, zero.runs)));
   const TableRuns means = runs(line, "x,y,y_sd,n\n0.1,1,0,3\n0.5,3,0.2,3\n");
   EXPECT_TRUE(has_chance(problem.experiments[0], in_order(problem, means.runs)));
+}
+
+TEST_F(TableRunsTest, RowsThatTellOfOtherRowsAreFaults) {
+  const TableStudy line = study(kLineStudy);
+  const std::string rows = "run,x,y\na,0.11,2.13\nb,0.32,2.71\nc,0.57,2.94\nd,0.83,3.78\n";
+  EXPECT_THAT(fault_of_runs(line, rows + ",0.4575,2.89\n"),
+              AllOf(HasSubstr("runs.csv:6: this last row looks like mean"), HasSubstr("not runs"),
+                    HasSubstr("Fix: delete it")));
+  EXPECT_THAT(fault_of_runs(line, rows + "e,0.4575,2.8900\n"), HasSubstr("runs.csv:6: this last"));
+  // The spreadsheet has a reading more than the table.
+  EXPECT_THAT(fault_of_runs(line, rows + ",0.4575,2.95\n"), HasSubstr("runs.csv:6: this last"));
+  EXPECT_THAT(fault_of_runs(line, rows + ",0.4575,2.89\n,0.3115,0.684\n"),
+              HasSubstr("runs.csv:6: lines 6 to 7 look like mean"));
+  EXPECT_EQ(runs(line, rows + "e,0.4575,2.95\n").rows, 5) << "a run in the middle";
+  EXPECT_EQ(runs(line, rows + "e,0.4000,2.89\n").rows, 5);
+}
+
+TEST_F(TableRunsTest, AColumnThatNumbersTheRowsNeedsNoName) {
+  const TableStudy line = study(kLineStudy);
+  const TableRuns read = runs(line, ",x,y\n0,0.1,2\n7,0.2,2.5\n3,0.3,2.7\n");
+  EXPECT_EQ(read.rows, 3);
+  EXPECT_THAT(read.notes, Contains(HasSubstr("the first column has no name")));
+  EXPECT_THAT(fault_of_runs(line, ",x,y\n0.5,0.1,2\n7,0.2,2.5\n"),
+              HasSubstr("runs.csv:1: column 1 has no name"));
+  EXPECT_THAT(fault_of_runs(line, "x,,y\n0.1,1,2\n0.2,2,2.5\n"),
+              HasSubstr("runs.csv:1: column 2 has no name"));
+}
+
+TEST_F(TableRunsTest, UnitsBehindNamesAreNoPartOfThem) {
+  const TableStudy angle = study(
+      "[parameter]\n\"sliding friction\" = { min = 0, max = 1 }\n"
+      "[measured]\ny = { mean = 27, sd = 1, n = 4, unit = \"deg\" }\n");
+  const TableRuns read = runs(angle, "\"sliding friction [-]\",y (deg)\n0.1,25\n0.2,26\n");
+  EXPECT_EQ(read.runs.size(), 2U);
+  EXPECT_THAT(read.notes,
+              Contains(HasSubstr("\"sliding friction [-]\" is taken for sliding friction")));
+  EXPECT_THAT(fault_of_runs(angle, "sliding friction [-],y [rad]\n0.1,0.4\n0.2,0.5\n"),
+              AllOf(HasSubstr("\"y [rad]\" is in another unit than y"), HasSubstr("in deg")));
+  EXPECT_THAT(fault_of_runs(angle, "sliding friction [-],y [deg],y [rad]\n0.1,24,0.4\n"),
+              HasSubstr("has no column y"))
+      << "it may be either";
+}
+
+/// The table's rows with one cell changed.
+std::string with_cell(const std::string& rows, int line, int column, const std::string& value) {
+  std::istringstream lines(rows);
+  std::string text, row;
+  for (int at = 1; std::getline(lines, row); ++at) {
+    std::istringstream cells(row);
+    std::string cell, changed;
+    for (int place = 0; std::getline(cells, cell, ','); ++place) {
+      changed += (place == 0 ? "" : ",") + (at == line && place == column ? value : cell);
+    }
+    text += changed + '\n';
+  }
+  return text;
+}
+
+using OddReadings = TableTest;
+
+TEST_F(OddReadings, ASlipIsNamedWithItsRow) {
+  const TableStudy of = study(test::made_up_study(test::kMeasuredDensity));
+  constexpr int kLine = 9, kAngle = 3, kDensity = 5;
+  const std::string rows = test::made_up_rows({.rows = 24});
+  const auto odd = [&](const std::string& text) {
+    const TableRuns table = runs(of, text);
+    return odd_readings(problem_of(of, table), table);
+  };
+  EXPECT_THAT(odd(rows), IsEmpty());
+  const auto slip = odd(with_cell(rows, kLine, kAngle, "71.6"));
+  ASSERT_EQ(slip.size(), 1U);
+  EXPECT_THAT(slip[0].text(), AllOf(HasSubstr("angle = 71.6 in "), HasSubstr("runs.csv:9, where")));
+  EXPECT_LT(slip[0].expected.high, 40);
+  const std::string two = with_cell(with_cell(rows, kLine, kDensity, "8123"), 15, kDensity, "7987");
+  EXPECT_EQ(odd(two).size(), 2U) << "they do not hide each other";
+  const auto joint = std::get<JointResult>(fit_table(of, runs(of, two)).found);
+  EXPECT_THAT(joint.warnings, Contains(AllOf(HasSubstr("density = 8123 in "), HasSubstr(":9, "),
+                                             HasSubstr("It counts"))));
 }
 
 TEST_F(TableFitTest, OneAngleLeavesARidge) {

@@ -87,6 +87,9 @@ TEST_F(PredictedReadings, PlacesOutsideTheBoundsAreRefused) {
   const auto inside =
       folder_.write("points.csv", std::string("restitution;sliding;rolling\n0,5;0,4;0,1\n"));
   EXPECT_EQ(places_in(inside, of.parameters).front(), (std::vector{.4, .1, .5}));
+  const auto with_units =
+      folder_.write("points.csv", std::string("sliding [-],rolling (-),restitution\n.4,.1,.5\n"));
+  EXPECT_EQ(places_in(with_units, of.parameters).front(), (std::vector{.4, .1, .5}));
 }
 
 TEST_F(NextRunsTest, BeginEvenlyOverTheBounds) {

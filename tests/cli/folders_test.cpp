@@ -357,8 +357,9 @@ TEST_F(Folders, AnExportLeavesFilesOfTheUsersAndTakesItsOwnAway) {
   write_users("decks/notes.txt");
   ASSERT_EQ(run({"export", "d", "--to", "yade", "--out", "decks"}).exit_code, 0);
   ASSERT_EQ(run({"export", "d", "--to", "edem", "--out", "decks"}).exit_code, 0);
-  EXPECT_THAT(names_in("decks"), UnorderedElementsAre("notes.txt", "values.txt", "values.csv",
-                                                      "clump.csv", "README.txt", ".repose-files"));
+  EXPECT_THAT(names_in("decks"),
+              UnorderedElementsAre("notes.txt", "values.txt", "values.csv", "spheres.txt",
+                                   "further_runs.toml", "README.txt", ".repose-files"));
 }
 
 }  // namespace

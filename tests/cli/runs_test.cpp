@@ -1,8 +1,11 @@
 // repose calibrate --runs, predict and ask: runs of another program.
+#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
 
+#include "base/folder_lock.h"
+#include "calibrate/experiment/run_store.h"
 #include "tests/calibrate/made_up_table.h"
 #include "tests/cli/command_test.h"
 
@@ -52,6 +55,19 @@ TEST_F(RunsCommands, CalibrateRefusesWhatBelongsToSimulations) {
   const Finished without = run({"calibrate", "study.toml"});
   EXPECT_EQ(without.exit_code, 2);
   EXPECT_THAT(without.err, HasSubstr("--runs runs.csv"));
+}
+
+TEST_F(RunsCommands, TwoAtOnceInOneFolderAreToldApart) {
+  std::filesystem::create_directories(path("out/runs"));
+  const Words words = {"calibrate", "study.toml", "--runs", "runs.csv", "--out", "out"};
+  {
+    const base::FolderLock lock(path("out"), calibrate::lock_file_in(path("out")));
+    const Finished second = run(words);
+    EXPECT_EQ(second.exit_code, 2);
+    EXPECT_THAT(second.err, AllOf(HasSubstr("is using it"), HasSubstr("Fix: ")));
+    EXPECT_FALSE(exists("out/result.json"));
+  }
+  EXPECT_EQ(run(words).exit_code, 0);
 }
 
 TEST_F(RunsCommands, PredictTellsReadingsAtPoints) {

@@ -16,6 +16,26 @@
 #include "calibrate/statistics/summary.h"
 
 namespace repose::calibrate {
+
+std::string unit_in(std::string_view cell) {
+  // Each with the end that names of columns have for it.
+  constexpr std::string_view kUnits =
+      " mm=mm cm=cm m=m µm=um um=um in=in inch=in deg=deg degree=deg degrees=deg °=deg grad=deg "
+      "rad=rad g=g kg=kg mg=mg ml=ml l=l cm3=ml cm³=ml n=n kn=kn %=percent percent=percent "
+      "kg/m3=kg_m3 kg/m³=kg_m3 g/l=kg_m3 g/cm3=g_cm3 g/cm³=g_cm3 t/m3=t_m3 s=s ms=ms min=min pa=pa "
+      "mpa=mpa gpa=gpa rpm=rpm -=1 –=1 1=1 ";
+  std::string text = " ";
+  for (const char letter : cell) {
+    if (std::string_view(" []()=").find(letter) != std::string_view::npos) continue;
+    text += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  }
+  text += '=';
+  const std::size_t found = text == " =" ? kUnits.npos : kUnits.find(text);
+  if (found == kUnits.npos) return {};
+  const std::size_t start = found + text.size();
+  return std::string(kUnits.substr(start, kUnits.find(' ', start) - start));
+}
+
 namespace {
 
 /// Small letters, and nothing but letters; without what is in brackets: "St. Dev. (n-1)" is stdev.
@@ -55,26 +75,6 @@ bool is_statistic(std::string_view cell) {
       "標準差 평균 표준편차 x̄ ø Ø σ ";
   const std::string word = plain_word(cell);
   return !word.empty() && kWords.find(' ' + word + ' ') != kWords.npos;
-}
-
-/// A unit as it stands in a cell, without brackets; empty: it is none.
-std::string unit_in(std::string_view cell) {
-  // Each with the end that names of columns have for it.
-  constexpr std::string_view kUnits =
-      " mm=mm cm=cm m=m µm=um um=um in=in inch=in deg=deg degree=deg degrees=deg °=deg grad=deg "
-      "rad=rad g=g kg=kg mg=mg ml=ml l=l cm3=ml cm³=ml n=n kn=kn %=percent percent=percent "
-      "kg/m3=kg_m3 kg/m³=kg_m3 g/l=kg_m3 g/cm3=g_cm3 g/cm³=g_cm3 t/m3=t_m3 s=s ms=ms min=min pa=pa "
-      "mpa=mpa gpa=gpa rpm=rpm -=1 –=1 1=1 ";
-  std::string text = " ";
-  for (const char letter : cell) {
-    if (std::string_view(" []()=").find(letter) != std::string_view::npos) continue;
-    text += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  }
-  text += '=';
-  const std::size_t found = text == " =" ? kUnits.npos : kUnits.find(text);
-  if (found == kUnits.npos) return {};
-  const std::size_t start = found + text.size();
-  return std::string(kUnits.substr(start, kUnits.find(' ', start) - start));
 }
 
 std::vector<std::size_t> places_of(const Table& table, std::span<const std::string> names) {
@@ -204,11 +204,16 @@ class Statistics {
   bool vary() const { return sd_ > 0; }
   bool is_mean(double value, double step) const { return is_same(value, mean_, step); }
 
+  /// Mean, scatter and so on, and no reading.
+  bool is_derived(double value, double step) const {
+    return std::ranges::any_of(derived_, [&](double one) { return is_same(value, one, step); });
+  }
+
   /// How likely a further reading equals any of them to the digits written; none: this one does
   /// not. Readings repeat others, so that the least of them is no sign: 1.
   std::optional<double> chance_of(double value, double step) const {
     const auto is_it = [&](double one) { return is_same(value, one, step); };
-    if (std::none_of(derived_.begin(), derived_.end(), is_it)) {
+    if (!is_derived(value, step)) {
       const bool is_reading = std::any_of(readings_.begin(), readings_.end(), is_it);
       return is_reading ? std::optional(1.) : std::nullopt;
     }
@@ -287,6 +292,33 @@ class Footer {
     return chance;
   }
 
+  /// Whether the last rows of a table of runs tell of those above, in settings as in readings: see
+  /// take_other_rows().
+  bool last_tell_of_runs(std::span<const std::size_t> settings, std::size_t count) const {
+    constexpr double kUnlikely = .01, kUnlikelyReadings = .05;
+    const std::size_t head = table_.rows.size() - count;
+    double of_settings = 1, of_readings = 1;
+    bool are_labelled_otherwise = true;
+    for (std::size_t row = head; row < table_.rows.size(); ++row) {
+      const auto tells = [&](std::size_t place) {
+        const std::vector<double> above = numbers_in(place, head);
+        const std::string& cell = table_.rows[row].cells[place];
+        const auto value = number_of(cell);
+        if (!value || above.size() < 2) return false;
+        const Statistics statistics(above);
+        if (!statistics.vary() || !statistics.is_derived(*value, step_of(cell))) return false;
+        of_settings *= statistics.chance_of(*value, step_of(cell)).value_or(1);
+        return true;
+      };
+      if (!std::ranges::all_of(settings, tells)) return false;
+      of_readings *= chance_of_readings(row, head);
+      are_labelled_otherwise = are_labelled_otherwise && is_labelled_otherwise(row, head);
+    }
+    return are_labelled_otherwise
+               ? of_settings * of_readings < kUnlikely
+               : of_readings < kUnlikelyReadings && of_settings * of_readings < kUnlikely;
+  }
+
   bool last_is_mean() const {
     const std::size_t head = table_.rows.size() - 1;
     bool any = false;
@@ -303,6 +335,31 @@ class Footer {
   }
 
  private:
+  /// Those of runs that failed have none.
+  std::vector<double> numbers_in(std::size_t place, std::size_t rows) const {
+    std::vector<double> values;
+    for (std::size_t row = 0; row < rows; ++row) {
+      if (const auto value = number_of(table_.rows[row].cells[place])) values.push_back(*value);
+    }
+    return values;
+  }
+
+  /// That readings of a run are all mean, scatter and so on of those above; 1 where one is not, or
+  /// where there is none.
+  double chance_of_readings(std::size_t row, std::size_t head) const {
+    double chance = 1;
+    for (const std::size_t place : readings_) {
+      const std::string& cell = table_.rows[row].cells[place];
+      const auto value = number_of(cell);
+      const std::vector<double> above = numbers_in(place, head);
+      if (!value || above.size() < 2) continue;
+      const auto one = Statistics(above).chance_of(*value, step_of(cell));
+      if (!one) return 1;
+      chance *= *one;
+    }
+    return chance;
+  }
+
   std::optional<std::vector<double>> values_of(std::size_t place, std::size_t rows) const {
     std::vector<double> values;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -334,6 +391,33 @@ class Footer {
   std::span<const std::size_t> readings_;
 };
 
+/// "this last row looks like", or "lines 5 to 6 look like".
+std::string last_rows_text(const Table& table, std::size_t count) {
+  if (count == 1) return "this last row looks like";
+  return fmt::format("lines {} to {} look like", table.rows[table.rows.size() - count].line,
+                     table.rows.back().line);
+}
+
+/// Rows at the end of a table of runs that are worked out of those above.
+void find_unlabelled_of_runs(const Table& table, std::span<const std::size_t> readings,
+                             std::span<const std::size_t> settings, base::Faults& errors) {
+  constexpr std::size_t kMaxRows = 8, kFewestRuns = 3;
+  if (settings.empty() || table.rows.size() <= kFewestRuns) return;
+  const Footer footer(table, readings);
+  for (std::size_t count = std::min(kMaxRows, table.rows.size() - kFewestRuns); count > 0;
+       --count) {
+    if (!footer.last_tell_of_runs(settings, count)) continue;
+    errors.add(
+        {.where = fmt::format("{}:{}", table.name, table.rows[table.rows.size() - count].line),
+         .value = fmt::format("{} mean, scatter or the like of the runs above, not runs",
+                              last_rows_text(table, count)),
+         .fix =
+             fmt::format("delete {}; a run that happens to be so counts if it stands above others.",
+                         count == 1 ? "it" : "them")});
+    return;
+  }
+}
+
 void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
                      Unlabelled unlabelled, OtherRows& other, base::Faults& errors) {
   constexpr std::size_t kMaxRows = 8, kFewestReadings = 2;
@@ -344,13 +428,10 @@ void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
   for (std::size_t count = unlabelled == Unlabelled::refused ? most : 0; count > 0; --count) {
     const auto chance = footer.chance_of_last(count);
     if (!chance || *chance >= kUnlikely) continue;
-    const int first = table.rows[table.rows.size() - count].line;
-    const int last = table.rows.back().line;
     errors.add(
-        {.where = fmt::format("{}:{}", table.name, first),
+        {.where = fmt::format("{}:{}", table.name, table.rows[table.rows.size() - count].line),
          .value = fmt::format("{} mean, scatter or the like of the rows above, not readings",
-                              count == 1 ? "this last row looks like"
-                                         : fmt::format("lines {} to {} look like", first, last)),
+                              last_rows_text(table, count)),
          .fix = fmt::format(
              "delete {}; readings that happen to be so count if they stand above others.",
              count == 1 ? "it" : "them")});
@@ -416,11 +497,13 @@ void note_doubtful(const Table& table, std::span<const std::size_t> readings, Ot
 }  // namespace
 
 OtherRows take_other_rows(Table& table, std::span<const std::string> readings,
-                          Unlabelled unlabelled, base::Faults& errors) {
+                          Unlabelled unlabelled, base::Faults& errors,
+                          std::span<const std::string> settings) {
   OtherRows other;
   const std::vector<std::size_t> places = places_of(table, readings);
   take_units(table, places, other, errors);
   take_labelled(table, other, errors);
+  find_unlabelled_of_runs(table, places, places_of(table, settings), errors);
   find_unlabelled(table, places, unlabelled, other, errors);
   if (unlabelled == Unlabelled::refused) note_doubtful(table, places, other);
   return other;

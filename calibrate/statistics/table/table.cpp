@@ -282,6 +282,27 @@ class NumberMarks {
   bool has_decimal_point_ = false;
 };
 
+/// Whole numbers, each once; words are labels of rows that are no readings.
+bool numbers_rows(const Table& table, std::size_t place) {
+  std::set<double> numbers;
+  for (const TableRow& row : table.rows) {
+    if (row.cells.size() <= place) return false;
+    const auto number = number_of(row.cells[place]);
+    if (!number) continue;
+    const bool is_whole = *number >= 0 && *number == std::floor(*number);
+    if (!is_whole || !numbers.insert(*number).second) return false;
+  }
+  return !numbers.empty();
+}
+
+void name_row_numbers(Table& table) {
+  constexpr const char* kRow = "row";
+  if (table.columns.size() < 2 || !table.columns.front().empty() || table.column(kRow)) return;
+  if (!numbers_rows(table, 0)) return;
+  table.columns.front() = kRow;
+  table.has_unnamed_row_numbers = true;
+}
+
 void check_header(const Table& table, int line, base::Faults& errors) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
@@ -327,6 +348,7 @@ Table parse_table(const std::string& name, std::string_view text, NoRows no_rows
       .rows = {std::make_move_iterator(rows.begin() + 1), std::make_move_iterator(rows.end())},
       .has_decimal_comma = delimiter != ',',
       .delimiter = delimiter == kNoDelimiter ? ';' : delimiter};
+  name_row_numbers(table);
   base::Faults errors;
   check_header(table, rows.front().line, errors);
   errors.require(no_rows == NoRows::allowed || !table.rows.empty(),

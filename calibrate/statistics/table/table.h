@@ -28,6 +28,8 @@ struct Table {
   std::vector<TableRow> rows;
   /// Cells are not parted by commas, so numbers are likely to have decimal commas.
   bool has_decimal_comma = false;
+  /// The first column had no name, and numbers the rows: it is called "row".
+  bool has_unnamed_row_numbers = false;
   char delimiter = ',';  ///< that parts the cells; of a table of one column, a semicolon
 
   std::optional<std::size_t> column(std::string_view wanted) const;
@@ -44,7 +46,8 @@ struct NumberColumn {
 
 /// Reads RFC 4180 text, in UTF-8 with or without a byte order mark. Cells are parted by what a
 /// first line "sep=;" says, otherwise by the first of semicolon, tab and comma that the header has;
-/// a header with none of them is that of a single column, whose commas are decimal ones. Rows and
+/// a header with none of them is that of a single column, whose commas are decimal ones. A first
+/// column without a name that numbers the rows, as programs write it, is called "row". Rows and
 /// columns in which nothing is written are passed over, and so are empty cells behind the last
 /// column.
 ///

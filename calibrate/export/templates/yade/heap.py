@@ -1,7 +1,7 @@
 # {{GRAINS}} grains in a tube that is lifted off a plate at {{LIFT_MM_S}} mm/s: the heap that stays.
 #   yade -n -x heap.py
 # Another heap: yade -n -x heap.py SEED.
-# heap.txt holds the spheres at the end (x y z radius, m): draw or measure them from the side.
+# heap.txt holds the spheres at the end (m): README.txt says how to measure them.
 exec(open('grain.py').read())
 import random, sys
 from yade import geom
@@ -42,7 +42,8 @@ for number in tube:
     O.bodies[number].state.vel = (0, 0, 0)
 O.run({{REST_STEPS}}, True)
 with open('heap.txt', 'w') as out:
+    out.write('x [m],y [m],z [m],radius [m]\n')
     for body in O.bodies:
         if isinstance(body.shape, Sphere) and body.state.pos[2] > -REACH:
             x, y, z = body.state.pos
-            out.write('%.9g %.9g %.9g %.9g\n' % (x, y, z, body.shape.radius))
+            out.write('%.9g,%.9g,%.9g,%.9g\n' % (x, y, z, body.shape.radius))
