@@ -251,7 +251,8 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
                                              .rows = table.rows,
                                              .failed = table.failed,
                                              .without_reading = table.without_reading,
-                                             .left_out = table.left_out}},
+                                             .left_out = table.left_out,
+                                             .engine = {}}},
           .found = std::move(joint)};
 }
 
@@ -277,6 +278,9 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }
+  result->provenance.table->engine = request.engine;
+  std::vector<std::string>& warnings = std::get<JointResult>(result->found).warnings;
+  warnings.insert(warnings.begin(), request.notes.begin(), request.notes.end());
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
