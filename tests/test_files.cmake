@@ -24,7 +24,7 @@ SimulatorVersion|StifferCoefficients|MovedCoefficients)|dem/(DrawDowns|FillAccur
 NeighbourList|RollOnGrains|RollTimestep|RoughDeadGrains|TiltOnGrains)|physics/Verify/Physics)$")
 # Suites that start, kill and restart whole programs, each of which other suites run as well: they have
 # the label `processes`, and are left out there too.
-set(processes "^cli/(CalibrateKilled|CalibrateRanks|CalibrateSheets|Folders|OutputsOf|SimulateRestart)$")
+set(processes "^cli/(CalibrateKilled|CalibrateRanks|CalibrateSheets|EngineKilled|Folders|OutputsOf|SimulateRestart)$")
 # Suites that compare what different numbers of threads give: `threads`. Races are the thread sanitizer's.
 set(threads "Threads$")
 

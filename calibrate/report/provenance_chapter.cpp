@@ -88,7 +88,13 @@ void add_model(const StudyResult& result, DataTable& data) {
 }
 
 void add_table(const TableFacts& table, DataTable& data) {
-  add(data, "runs", "made with another program, and given as a table");
+  if (table.engine) {
+    add(data, "runs",
+        fmt::format("{}, of which {} failed, by the study's command: {}", table.engine->runs,
+                    table.engine->failed, table.engine->command));
+  } else {
+    add(data, "runs", "made with another program, and given as a table");
+  }
   add(data, "table", fmt::format("{}", fmt::join(table.files, ", ")));
   add(data, "rows", fmt::format("{}", table.rows));
   add(data, "rows of failed runs", fmt::format("{}", table.failed));

@@ -96,6 +96,14 @@ struct ModelFacts {
   std::optional<HeapDefinition> heap_definition = {};  ///< none: there is no heap
 };
 
+/// A command of the study's that made runs.
+struct EngineFacts {
+  std::string command;
+  int runs = 0;
+  int failed = 0;        ///< of these
+  std::string ended_by;  ///< why it made no more: "settled", "max_runs" or "failures"
+};
+
 /// Runs that somebody made with another program, and gave as a table.
 struct TableFacts {
   std::vector<std::string> files;  ///< without their folders
@@ -103,6 +111,7 @@ struct TableFacts {
   int failed = 0;                  ///< of these, runs that failed
   int without_reading = 0;         ///< and runs with no reading at all, of which nobody says why
   int left_out = 0;                ///< beside these: outside the bounds, or twice in the table
+  std::optional<EngineFacts> engine = {};  ///< that made them, or some of them; none: nobody says
 };
 
 /// What coefficients belong to: they mean nothing without it.

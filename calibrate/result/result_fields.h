@@ -69,12 +69,21 @@ void fields(Io& io, Held<Io, ModelFacts>& model) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, EngineFacts>& engine) {
+  io("command", engine.command);
+  io("runs", engine.runs);
+  io("failed", engine.failed);
+  io("ended_by", engine.ended_by);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, TableFacts>& table) {
   io("files", table.files);
   io("rows", table.rows);
   io("failed", table.failed);
   io("without_reading", table.without_reading);
   io("left_out", table.left_out);
+  if (io.has("engine", table.engine.has_value())) io("engine", table.engine);
 }
 
 template <typename Io>

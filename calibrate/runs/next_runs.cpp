@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/rounds.h"
@@ -153,15 +152,6 @@ NextRuns narrowing_runs(const Problem& problem, const TableRuns& table, std::siz
   return next;
 }
 
-/// In quotation marks where it has something that parts cells.
-std::string cell_of(const std::string& text) {
-  if (text.find_first_of(",;\t\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char letter : text)
-    quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-  return quoted + '"';
-}
-
 }  // namespace
 
 NextRuns next_runs(const TableStudy& study, const TableRuns& table, std::size_t count) {
@@ -171,39 +161,35 @@ NextRuns next_runs(const TableStudy& study, const TableRuns& table, std::size_t 
                                                 : spread_runs(problem, table, count);
 }
 
-std::string next_runs_csv(const TableStudy& study, const TableRuns& table,
-                          const std::vector<NextRun>& runs) {
-  std::vector<std::string> columns = table.columns;
+Table next_runs_table(const TableStudy& study, const TableRuns& table,
+                      const std::vector<NextRun>& runs) {
+  Table next{.name = {},
+             .columns = table.columns,
+             .rows = {},
+             .has_decimal_comma = table.has_decimal_comma,
+             .delimiter = table.delimiter};
+  std::vector<std::string>& columns = next.columns;
   if (columns.empty()) {
     for (const Parameter& parameter : study.parameters) columns.push_back(parameter.name);
     const std::vector<std::string> readings = readings_of(study);
     columns.insert(columns.end(), readings.begin(), readings.end());
   }
   if (std::ranges::find(columns, kReason) == columns.end()) columns.emplace_back(kReason);
-  // As the table is written, so that rows can be put below it.
-  const std::string between(1, table.delimiter);
-  const auto line = [&](const std::vector<std::string>& cells) {
-    return fmt::format("{}\n", fmt::join(cells, between));
-  };
-  std::vector<std::string> cells;
-  for (const std::string& column : columns) cells.push_back(cell_of(column));
-  std::string text = line(cells);
   for (const NextRun& run : runs) {
-    cells.clear();
+    TableRow& row = next.rows.emplace_back();
     for (const std::string& column : columns) {
       const auto parameter = std::ranges::find(study.parameters, column, &Parameter::name);
       if (parameter != study.parameters.end()) {
         const auto j = static_cast<std::size_t>(parameter - study.parameters.begin());
         std::string number = fmt::format("{}", run.values[j]);
         if (table.has_decimal_comma) std::ranges::replace(number, '.', ',');
-        cells.push_back(std::move(number));
+        row.cells.push_back(std::move(number));
       } else {
-        cells.push_back(column == kReason ? cell_of(run.reason) : "");
+        row.cells.push_back(column == kReason ? run.reason : "");
       }
     }
-    text += line(cells);
   }
-  return text;
+  return next;
 }
 
 }  // namespace repose::calibrate

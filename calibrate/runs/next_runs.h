@@ -6,6 +6,7 @@
 
 #include "calibrate/runs/table_runs.h"
 #include "calibrate/runs/table_study.h"
+#include "calibrate/statistics/table/table.h"
 
 namespace repose::calibrate {
 
@@ -30,9 +31,10 @@ struct NextRuns {
 /// @throws base::InputError  the problem is not sound.
 NextRuns next_runs(const TableStudy& study, const TableRuns& table, std::size_t count);
 
-/// A table of them for a user to fill in: the columns of the first table that was read, or the
-/// parameters and readings where there is none, and a column "reason".
-std::string next_runs_csv(const TableStudy& study, const TableRuns& table,
-                          const std::vector<NextRun>& runs);
+/// A table of them, to be filled in: the columns of the first table that was read, or the
+/// parameters and readings where there is none, and a column "reason". Written as that table is, so
+/// that rows can be put below it.
+Table next_runs_table(const TableStudy& study, const TableRuns& table,
+                      const std::vector<NextRun>& runs);
 
 }  // namespace repose::calibrate

@@ -294,7 +294,8 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
                                              .rows = table.rows,
                                              .failed = table.failed,
                                              .without_reading = table.without_reading,
-                                             .left_out = table.left_out}},
+                                             .left_out = table.left_out,
+                                             .engine = {}}},
           .found = std::move(joint)};
 }
 
@@ -314,7 +315,8 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
   }
   faults.throw_if_any();
   sound_problem_of(*study, *table);  // before a folder is made
-  const base::FolderLock lock = locked(folder);
+  std::optional<base::FolderLock> lock;  // who made the runs holds it already
+  if (!request.engine) lock.emplace(locked(folder));
   std::optional<StudyResult> result;
   try {
     const FitWatch watch(is_interrupted);
@@ -322,6 +324,9 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }
+  result->provenance.table->engine = request.engine;
+  std::vector<std::string>& warnings = std::get<JointResult>(result->found).warnings;
+  warnings.insert(warnings.begin(), request.notes.begin(), request.notes.end());
   const StudyIdentity& identity = result->provenance.study;
   set_aside_old_result(folder, identity, note);
   write_study_files(folder, {.study = identity, .measurement = {}, .fingerprints = {}},

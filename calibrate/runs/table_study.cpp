@@ -66,6 +66,7 @@ class Reader {
         [this](Section& section, const ConfigValue& item) { read_parameter(section, item); });
     read_items(kMeasuredSection, kMeasuredExample, "what a bench measured",
                [this](Section& section, const ConfigValue& item) { read_measured(section, item); });
+    read_engine();
     root_.reject_unknown_keys();
     check_names();
     errors_.throw_if_any();
@@ -84,8 +85,8 @@ class Reader {
       const ConfigValue* found = root_.value(key);
       if (found == nullptr) continue;
       errors_.add(found->place, fmt::format("[{}] stands beside [parameter]", key),
-                  "a study of a table of runs has [study], [parameter] and [measured] alone: what "
-                  "was simulated, the program that made the runs knows",
+                  "a study of a table of runs has [study], [parameter], [measured] and [engine] "
+                  "alone: what was simulated, the program that made the runs knows",
                   "take it out; or leave out [parameter] and --runs, for a study that repose "
                   "simulates itself");
     }
@@ -276,6 +277,33 @@ class Reader {
     } catch (const base::InputError& error) {
       faults_.add_all(error.faults());
     }
+  }
+
+  void read_engine() {
+    Section engine = root_.section("engine");
+    if (!engine.exists()) return;
+    constexpr const char* kExample = "command = \"python3 run.py\"";
+    constexpr double kLongest_s = 1e8;  // three years
+    constexpr std::int64_t kMostRuns = 1000;
+    EngineSettings& found = study_.engine.emplace();
+    const auto command = engine.text("command", kExample);
+    if (!engine.has("command")) {
+      engine.missing("command", "what is started for each run", kExample);
+    } else if (command && command->find_first_not_of(" \t\n") == std::string::npos) {
+      engine.wrong(*engine.value("command"), "the line that starts the program of a run", kExample);
+    }
+    found.command = command.value_or("");
+    found.timeout_s = engine.number("timeout_s", dem::above(0, kLongest_s), "timeout_s = 3600");
+    const auto max_runs = engine.integer("max_runs", 1, kMostRuns, "max_runs = 40");
+    if (max_runs) found.max_runs = static_cast<int>(*max_runs);
+    if (const ConfigValue* settings = engine.value("settings")) {
+      found.settings = *settings;
+      if (settings->kind != ConfigValue::Kind::table) {
+        engine.wrong(*settings, "a table, which the program gets as it is",
+                     "as in settings = { grains = 500 }");
+      }
+    }
+    engine.reject_unknown_keys();
   }
 
   /// A column is either.

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "calibrate/fit/problem.h"
 #include "calibrate/particles/standing_heap.h"
+#include "dem/study/config.h"
 #include "dem/study/study.h"
 
 /// Studies of somebody's own runs, made with whatever program: parameters of any name, numbers that
@@ -21,7 +23,15 @@ struct PicturedReading {
   HeapPlacement placement = {};
 };
 
-/// [parameter] and [measured] of a study.
+/// The program that makes the runs of a study: its section [engine].
+struct EngineSettings {
+  std::string command;
+  std::optional<double> timeout_s = {};  ///< of a run
+  std::optional<int> max_runs = {};
+  dem::ConfigValue settings = {};  ///< a table for the program, of which nothing is known here
+};
+
+/// [parameter], [measured] and [engine] of a study.
 struct TableStudy {
   std::filesystem::path file;
   dem::StudyHeading heading;
@@ -29,6 +39,7 @@ struct TableStudy {
   std::vector<Observable> measured;   ///< likewise; each is its own experiment's "value"
   std::vector<Observable> held_out;   ///< predicted, not fitted
   std::map<std::string, PicturedReading> pictured;  ///< by the reading; of all angles
+  std::optional<EngineSettings> engine;             ///< none: somebody makes the runs by hand
   std::vector<std::filesystem::path> sheets;        ///< of readings, which the study names
   std::vector<std::string> notes;                   ///< what was taken for granted
   std::string text;                                 ///< of the file

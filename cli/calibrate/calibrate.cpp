@@ -14,6 +14,7 @@
 #include "calibrate/run/run_study.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_record.h"
+#include "cli/calibrate/calibrate_engine.h"
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/calibrate/calibrate_runs.h"
 #include "cli/calibrate/calibrate_table.h"
@@ -119,7 +120,14 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 }  // namespace
 
 ExitCode run_calibrate(const CalibrateArguments& arguments) {
+  if (has_engine(arguments)) return run_calibrate_engine(arguments);
   if (!arguments.runs.empty()) return run_calibrate_runs(arguments);
+  if (!arguments.max_runs.empty()) {
+    print_line(
+        "--max-runs: is for studies with [engine]. Fix: leave it out; --budget limits "
+        "simulations.");
+    return ExitCode::bad_input;
+  }
   if (!arguments.rolling_models.empty()) return run_rolling_models(arguments);
   if (calibrate::is_launched_as_rank()) {
     if (arguments.is_dry_run) {

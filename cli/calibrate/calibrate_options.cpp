@@ -155,12 +155,19 @@ With --runs nothing is simulated: STUDY has [parameter] and [measured] in place 
 a particle, RUNS.csv a row for each run of any program, with the columns of both
 and, if known, NAME_sd and n of runs that a row is the mean of, seed and status.
 
+Where such a study has [engine] with command = "python3 run.py", repose makes runs
+with it: each in a folder below --out, --jobs at once (1), until nothing more would
+narrow the answer or --max-runs were made; then it fits. The same command goes on
+after an interruption. --dry-run tells how many runs are next, and how long they
+take if any was made. docs/engines.md describes what the command is given.
+
 Examples:
   repose calibrate study.toml --dry-run
   repose calibrate study.toml
   repose calibrate study.toml --rolling-models constant_torque,elastic_plastic
   repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
   repose calibrate table.toml --runs runs.csv
+  repose calibrate with_engine.toml --jobs 2 --max-runs 40
 )";
 
 }  // namespace
@@ -178,6 +185,7 @@ Command calibrate_command() {
             &given->rolling_models},
            {"--runs", "RUNS.csv", "Fit to runs of another program; repeatable", &given->runs},
            {"--set", "KEY=VALUE", "Replace a value of the study; repeatable", &given->settings},
+           {"--max-runs", "N", "Runs that an engine makes at most", &given->max_runs},
            {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
            {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
            {"--dry-run", "", "Only estimate how long each budget takes", &given->is_dry_run},

@@ -12,8 +12,11 @@
 namespace repose::cli {
 
 /// Its options by the fields that the library finds fault with.
-inline constexpr std::array<base::FieldName, 3> kCalibrateFields{
-    {{"budget", "--budget"}, {"setting", "--set"}, {"the joint method", "--method joint"}}};
+inline constexpr std::array<base::FieldName, 4> kCalibrateFields{
+    {{"budget", "--budget"},
+     {"setting", "--set"},
+     {"the joint method", "--method joint"},
+     {"max_runs", "--max-runs"}}};
 
 /// `repose calibrate`, as typed.
 struct CalibrateArguments {
@@ -23,6 +26,7 @@ struct CalibrateArguments {
   std::string budget = "quick";
   std::string rolling_models;
   std::vector<std::string> runs = {};  ///< tables of another program's; empty: simulated here
+  std::string max_runs = {};           ///< of a study with [engine]
   std::string jobs;
   std::string out_folder;
   std::string json_file;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -10,30 +11,11 @@
 #include "calibrate/result/result.h"
 #include "calibrate/runs/table_fit.h"
 #include "calibrate/study/study_record.h"
+#include "cli/calibrate/calibrate_engine.h"
 #include "cli/calibrate/calibrate_table.h"
 #include "cli/common/terminal.h"
 
 namespace repose::cli {
-namespace {
-
-/// Options of simulations, of which none is made.
-void refuse_simulations(const CalibrateArguments& arguments, std::vector<std::string>& errors) {
-  const CalibrateArguments usual;
-  const auto refuse = [&](bool is_given, const char* option) {
-    if (!is_given) return;
-    errors.push_back(fmt::format(
-        "{}: is of simulations, and with --runs none is made. Fix: leave one of them out.",
-        option));
-  };
-  refuse(arguments.budget != usual.budget, "--budget");
-  refuse(arguments.method != usual.method, "--method");
-  refuse(!arguments.rolling_models.empty(), "--rolling-models");
-  refuse(!arguments.jobs.empty(), "--jobs");
-  refuse(arguments.is_dry_run, "--dry-run");
-}
-
-}  // namespace
-
 ExitCode run_calibrate_runs(const CalibrateArguments& arguments) {
   calibrate::TableRequest request{.study = arguments.study,
                                   .settings = arguments.settings,
@@ -41,7 +23,16 @@ ExitCode run_calibrate_runs(const CalibrateArguments& arguments) {
                                   .folder = arguments.out_folder};
   if (request.folder.empty()) request.folder = calibrate::default_folder(request.study);
   std::vector<std::string> errors;
-  refuse_simulations(arguments, errors);
+  refuse_simulations(arguments, "--runs", errors);
+  for (const auto& [is_given, option] :
+       {std::pair(!arguments.jobs.empty(), "--jobs"), std::pair(arguments.is_dry_run, "--dry-run"),
+        std::pair(!arguments.max_runs.empty(), "--max-runs")}) {
+    if (!is_given) continue;
+    errors.push_back(fmt::format(
+        "{}: is of runs that are to be made, and with --runs none is, without [engine] in the "
+        "study. Fix: leave one of them out.",
+        option));
+  }
   std::vector<std::filesystem::path> read = request.runs;
   read.push_back(request.study);
   for (const char* name : {calibrate::kStudyCopy, calibrate::kNotesFile, calibrate::kResultFile}) {

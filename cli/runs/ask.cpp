@@ -93,7 +93,7 @@ ExitCode run_ask(const AskArguments& arguments) {
   print_lines(table.notes);
   Outputs outputs;
   if (!next.runs.empty()) {
-    outputs.add(arguments.out_file, calibrate::next_runs_csv(study, table, next.runs));
+    outputs.add(arguments.out_file, csv_text(calibrate::next_runs_table(study, table, next.runs)));
   }
   outputs.show(table_of(study, next, arguments.out_file, columns_of(stdout)));
   outputs.write();

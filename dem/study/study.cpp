@@ -151,8 +151,9 @@ void refuse_table(const ConfigValue& config, StudyErrors& errors) {
     errors.add(parameters->place,
                "[parameter] makes this a study of a table of runs: there is nothing to simulate",
                "its runs are made with another program",
-               "give the table, repose calibrate STUDY.toml --runs runs.csv; or write [particle], "
-               "[wall], [contact] and [experiment] in place of [parameter] and [measured]");
+               "give the table, repose calibrate STUDY.toml --runs runs.csv; or the command that "
+               "makes runs, [engine] command = \"python3 run.py\"; or write [particle], [wall], "
+               "[contact] and [experiment] in place of [parameter] and [measured]");
   }
   errors.throw_if_any();
 }

@@ -154,7 +154,7 @@ TEST_F(NextRunsTest, StopWhereFurtherOnesWouldNotNarrow) {
 TEST_F(NextRunsTest, MakeATableToBeFilledInAndRead) {
   const TableStudy of = study(test::made_up_study());
   const NextRuns next = next_runs(of, {}, 8);
-  const std::string text = next_runs_csv(of, {}, next.runs);
+  const std::string text = csv_text(next_runs_table(of, {}, next.runs));
   EXPECT_THAT(text, HasSubstr("sliding,rolling,restitution,angle,reason\n"));
   const TableRuns empty = runs(of, text);
   EXPECT_EQ(empty.without_reading, 8);
@@ -162,7 +162,7 @@ TEST_F(NextRunsTest, MakeATableToBeFilledInAndRead) {
   EXPECT_EQ(empty.places[0], next.runs[0].values);
   // With the columns of the table that it goes to.
   const TableRuns there = runs(of, test::made_up_rows({.rows = 4}));
-  EXPECT_THAT(next_runs_csv(of, there, next.runs),
+  EXPECT_THAT(csv_text(next_runs_table(of, there, next.runs)),
               HasSubstr("sliding,rolling,restitution,angle,angle_sd,density,n,reason\n"));
 }
 
@@ -174,7 +174,7 @@ TEST_F(NextRunsTest, AreWrittenAsTheTableIs) {
   const TableRuns there = runs(of, table);
   const NextRuns next = next_runs(of, there, 3);
   ASSERT_EQ(next.runs.size(), 3U);
-  const std::string text = next_runs_csv(of, there, next.runs);
+  const std::string text = csv_text(next_runs_table(of, there, next.runs));
   EXPECT_THAT(text, HasSubstr("x;y;reason\n0,"));
   const TableRuns together = runs(of, table + text.substr(text.find('\n') + 1));
   ASSERT_EQ(together.places.size(), 5U);

@@ -1,9 +1,16 @@
-// repose calibrate --runs, predict and ask: runs of another program.
+// repose calibrate --runs, predict and ask: runs of another program, and a command that makes them.
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
+#include <sys/types.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "base/child_process.h"
 #include "base/folder_lock.h"
 #include "calibrate/experiment/run_store.h"
 #include "tests/calibrate/made_up_table.h"
@@ -103,6 +110,104 @@ TEST_F(RunsCommands, AskWritesTheNextRuns) {
   EXPECT_THAT(again.err, HasSubstr("holds readings that were filled in"));
   folder_.write("mine.csv", std::string("a,b\n1,2\n"));
   EXPECT_EQ(run({"ask", "study.toml", "--out", "mine.csv"}).exit_code, 2) << "it is somebody's";
+}
+
+/// A command whose fourth run hangs until there is a file "go"; it leaves its process's number.
+struct EngineCommands : CommandTest {
+  EngineCommands() : CommandTest({"calibrate", "study.toml"}) {
+    folder_.write("study.toml",
+                  std::string("[parameter]\nfriction = { min = 0.1, max = 0.7 }\n"
+                              "[measured]\naor = { mean = 22, sd = 1, n = 4, unit = \"deg\" }\n"
+                              "[engine]\ncommand = \"sh run.sh\"\n"));
+    folder_.write("run.sh", std::string(R"(
+number() { sed -n "s/^ *\"$1\": \([-0-9.e]*\),*$/\1/p" "$folder/run.json"; }
+folder=$1
+seed=$(number seed)
+if [ $seed = 4 ] && [ ! -e go ]; then echo $$ > pid; sleep 300; fi
+angle=$(awk -v f=$(number friction) -v s=$seed 'BEGIN { print 8 + 40 * f + .5 * sin(37 * s) }')
+echo "{\"aor\": $angle}" > "$folder/reading.json"
+)"));
+  }
+
+  /// Starts it, and waits until the fourth run hangs.
+  pid_t start_until_it_hangs() const {
+    std::filesystem::remove(path("pid"));
+    const pid_t program = start_repose(folder_, {"calibrate", "study.toml"});
+    while (!exists("pid") || text("pid").empty()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return program;
+  }
+  static int end_of(pid_t program, int signal) {
+    ::kill(program, signal);
+    int status = 0;
+    ::waitpid(program, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  std::filesystem::path output_ = path("study_calibration/runs/run_004/output.txt");
+};
+using EngineKilled = EngineCommands;
+
+TEST_F(EngineCommands, MakeRunsAndTellHowMany) {
+  folder_.write("go", std::string());
+  const Finished dry = run({"--dry-run"});
+  EXPECT_EQ(dry.exit_code, 0) << dry.err;
+  EXPECT_THAT(dry.out, AllOf(HasSubstr("Runs made: 0"), HasSubstr("To be made next: 6")));
+  EXPECT_FALSE(exists("study_calibration"));
+  const json found = result({"--jobs", "2", "--max-runs", "10"});
+  EXPECT_EQ(found["parameters"][0]["name"], "friction");
+  EXPECT_EQ(found["provenance"]["table"]["engine"]["command"], "sh run.sh");
+  EXPECT_LE(found["provenance"]["table"]["engine"]["runs"], 10);
+  EXPECT_EQ(run_repose(folder_, {"report", "study_calibration"}).exit_code, 0);
+  EXPECT_THAT(text("study_calibration/report.html"), HasSubstr("command: sh run.sh"));
+  EXPECT_THAT(run({"--dry-run"}).out, Not(HasSubstr("nothing tells yet")));
+  const Finished predicted = run_repose(
+      folder_,
+      {"ask", "study.toml", "--runs", "study_calibration/runs/runs.csv", "--out", "next.csv"});
+  EXPECT_EQ(predicted.exit_code, 0) << predicted.err;
+}
+
+TEST_F(EngineCommands, RefuseOptionsThatDoNothing) {
+  const Finished done = run({"--budget", "standard", "--jobs", "0", "--max-runs", "many"});
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_THAT(done.err, AllOf(HasSubstr("--budget: is of simulations, and with [engine] none"),
+                              HasSubstr("--jobs 0"), HasSubstr("--max-runs many")));
+  folder_.write("table.toml", calibrate::test::made_up_study());
+  folder_.write("runs.csv", calibrate::test::made_up_rows());
+  const Finished table =
+      run_repose(folder_, {"calibrate", "table.toml", "--runs", "runs.csv", "--max-runs", "9"});
+  EXPECT_EQ(table.exit_code, 2);
+  EXPECT_THAT(table.err, HasSubstr("--max-runs: is of runs that are to be made"));
+}
+
+TEST_F(EngineKilled, CtrlCEndsTheProgramsAndTheSameCommandGoesOn) {
+  const pid_t program = start_until_it_hangs();
+  EXPECT_TRUE(base::is_in_use(output_));
+  EXPECT_EQ(end_of(program, SIGINT), 130);
+  EXPECT_FALSE(base::is_in_use(output_)) << "the program of the run is still there";
+  EXPECT_FALSE(exists("study_calibration/result.json"));
+  EXPECT_THAT(text("study_calibration/runs/runs.csv"), HasSubstr(",3,ok,"));
+  folder_.write("go", std::string());
+  EXPECT_EQ(run({}).exit_code, 0);
+  std::filesystem::rename(path("study_calibration"), path("parts"));
+  EXPECT_EQ(run({}).exit_code, 0);
+  EXPECT_EQ(text("parts/result.json"), text("study_calibration/result.json"));
+}
+
+TEST_F(EngineKilled, ProgramsThatAKilledOneLeftAreNotMixedUp) {
+  const pid_t program = start_until_it_hangs();
+  const pid_t group = ::getpgid(std::stoi(text("pid")));
+  end_of(program, SIGKILL);
+  ASSERT_TRUE(base::is_in_use(output_));
+  folder_.write("go", std::string());
+  const Finished beside = run({});
+  EXPECT_EQ(beside.exit_code, 2);
+  EXPECT_THAT(beside.err, AllOf(HasSubstr("run_004"), HasSubstr("still running there")));
+  ::kill(-group, SIGKILL);
+  while (base::is_in_use(output_)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const Finished last = run({});
+  EXPECT_EQ(last.exit_code, 0) << last.err;
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ OUTPUTS = {
     "export": ["export hazelnut --to edem --json -"],
     "plan": ["plan drops.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
     "calibrate": ["calibrate study.toml --out hazelnut --json -",
-                  "calibrate grain.toml --runs grain_runs.csv --json -"],
+                  "calibrate grain.toml --runs grain_runs.csv --json -",
+                  "calibrate command.toml --json -"],
     "predict": ["predict grain.toml --runs grain_runs.csv --at grain_points.csv --json -"],
 }
 SECTIONS = ["study", "particle", "wall", "wall.tube", "contact", "contact.particle_wall", "contact.particle_wall.restitution",

@@ -314,7 +314,8 @@ def prepare(folder, root, repose):
     (folder / "runs.csv").write_text(RUNS, encoding="utf-8")
     (folder / "two_days.csv").write_text(TWO_DAYS, encoding="utf-8")
     engines = documents.Document(root / "docs/engines.md", root)
-    for language, names in (("toml", ["grain.toml", "seen.toml"]), ("csv", ["grain_runs.csv", "seen_runs.csv", "grain_points.csv"])):
+    for language, names in (("toml", ["grain.toml", "seen.toml", "command.toml"]), ("python", ["run.py"]),
+                            ("csv", ["grain_runs.csv", "seen_runs.csv", "grain_points.csv"])):
         blocks = [block for block in engines.blocks if block.language == language]
         for name, block in zip(names, blocks):
             (folder / name).write_text("\n".join([*(line.text for line in block.lines), ""]), encoding="utf-8")

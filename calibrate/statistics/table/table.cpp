@@ -373,6 +373,31 @@ Table read_table(const std::filesystem::path& file, NoRows no_rows) {
   return parse_table(file.string(), base::read_whole_file(file), no_rows);
 }
 
+std::string csv_text(const Table& table) {
+  // Others than the usual ones are told by a line of their own.
+  const char delimiter = table.delimiter == '|' ? ';' : table.delimiter;
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string text;
+    for (const std::string& cell : cells) {
+      if (&cell != &cells.front()) text += delimiter;
+      const bool is_plain = cell.find_first_of(",;\t\"\r\n") == std::string::npos;
+      const bool is_decimal_comma =
+          cell.find(delimiter) == std::string::npos && number_of(cell).has_value();
+      if (is_plain || is_decimal_comma) {
+        text += cell;
+        continue;
+      }
+      text += '"';
+      for (const char letter : cell) text.append(letter == '"' ? 2 : 1, letter);
+      text += '"';
+    }
+    return text + '\n';
+  };
+  std::string text = line(table.columns);
+  for (const TableRow& row : table.rows) text += line(row.cells);
+  return text;
+}
+
 std::optional<double> number_of(std::string_view cell) {
   std::string text(cell);
   if (text.find('.') == std::string::npos) {

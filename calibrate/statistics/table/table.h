@@ -59,6 +59,9 @@ Table parse_table(const std::string& name, std::string_view text, NoRows no_rows
 /// parse_table of a file's content.
 Table read_table(const std::filesystem::path& file, NoRows no_rows = NoRows::refused);
 
+/// The table's text, which parse_table reads back.
+std::string csv_text(const Table& table);
+
 /// A cell as a finite number, with a decimal point or comma; none if it is not one.
 std::optional<double> number_of(std::string_view cell);
 

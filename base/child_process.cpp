@@ -1,0 +1,153 @@
+#include "base/child_process.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/file.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/text.h"
+
+namespace repose::base {
+namespace {
+
+constexpr mode_t kRightsOfOutput = 0666;  // less what the process's mask takes away
+
+class OutputHandle {
+ public:
+  OutputHandle(const std::filesystem::path& file, int flags)
+      : number_(::open(file.c_str(), flags | O_CLOEXEC, kRightsOfOutput)) {}
+  ~OutputHandle() {
+    if (number_ >= 0) ::close(number_);
+  }
+  OutputHandle(const OutputHandle&) = delete;
+  OutputHandle& operator=(const OutputHandle&) = delete;
+  OutputHandle(OutputHandle&&) = delete;
+  OutputHandle& operator=(OutputHandle&&) = delete;
+
+  int number() const { return number_; }
+  /// The lock is that of the open file, which child processes share.
+  bool is_locked_by_others() const {
+    return ::flock(number_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  }
+
+ private:
+  int number_;
+};
+
+void require_spawned(int error) {
+  if (error != 0) throw std::system_error(error, std::generic_category());
+}
+
+pid_t spawn(const ProcessStart& start, int output) {
+  posix_spawn_file_actions_t actions{};
+  posix_spawnattr_t attributes{};
+  require_spawned(::posix_spawn_file_actions_init(&actions));
+  require_spawned(::posix_spawnattr_init(&attributes));
+  std::vector<std::string> copies = start.words;
+  std::vector<char*> words;
+  for (std::string& copy : copies) words.push_back(copy.data());
+  words.push_back(nullptr);
+  pid_t pid = 0;
+  int error = ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, output, 1);
+  if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, output, 2);
+  if (error == 0) error = ::posix_spawn_file_actions_addchdir_np(&actions, start.folder.c_str());
+  if (error == 0) error = ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  if (error == 0) error = ::posix_spawnattr_setpgroup(&attributes, 0);  // a new one
+  if (error == 0) {
+    error = ::posix_spawnp(&pid, words.front(), &actions, &attributes, words.data(), ::environ);
+  }
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&actions);
+  require_spawned(error);
+  return pid;
+}
+
+}  // namespace
+
+std::string ProcessEnd::text() const {
+  constexpr int kOfShells = 128;
+  const int by = signal != 0 ? signal : exit_code - kOfShells;
+  const char* name = by > 0 ? ::sigdescr_np(by) : nullptr;
+  if (name != nullptr) return fmt::format("ended by signal {} ({})", by, name);
+  return fmt::format("exit code {}", exit_code);
+}
+
+ChildProcess::ChildProcess(const ProcessStart& start) {
+  const OutputHandle output(start.output, O_WRONLY | O_CREAT | O_APPEND);
+  if (output.number() < 0) {
+    refuse(start.output,
+           fmt::format("cannot be written ({})", std::generic_category().message(errno)),
+           "choose a writable folder, or free some space there.");
+  }
+  if (output.is_locked_by_others()) {
+    refuse(start.output, "a program that was started earlier is still running and writes there",
+           "wait until it has ended, or end it.");
+  }
+  if (::ftruncate(output.number(), 0) != 0) require_spawned(errno);
+  pid_ = spawn(start, output.number());
+}
+
+ChildProcess::~ChildProcess() {
+  if (end_) return;
+  kill();
+  ::waitpid(pid_, nullptr, 0);
+}
+
+std::optional<ProcessEnd> ChildProcess::end() {
+  if (end_) return end_;
+  // The group keeps its number until the program itself is waited for.
+  siginfo_t info{};
+  if (::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+      info.si_pid == 0) {
+    return std::nullopt;
+  }
+  kill();
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
+  end_ = WIFSIGNALED(status) ? ProcessEnd{.exit_code = 0, .signal = WTERMSIG(status)}
+                             : ProcessEnd{.exit_code = WEXITSTATUS(status), .signal = 0};
+  return end_;
+}
+
+void ChildProcess::ask_to_end() const { ::kill(-pid_, SIGTERM); }
+
+void ChildProcess::kill() const { ::kill(-pid_, SIGKILL); }
+
+bool is_in_use(const std::filesystem::path& output) {
+  const OutputHandle file(output, O_RDONLY);
+  return file.number() >= 0 && file.is_locked_by_others();
+}
+
+std::vector<std::string> last_lines(const std::filesystem::path& output, std::size_t most) {
+  constexpr std::streamoff kEnd_bytes = 8192;
+  constexpr std::size_t kLongest = 300;  // bytes of a line
+  std::ifstream file(output, std::ios::binary | std::ios::ate);
+  if (!file) return {};
+  const std::streamoff size = file.tellg();
+  file.seekg(std::max(std::streamoff{0}, size - kEnd_bytes));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) {
+    // A progress bar writes over its line.
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    line.erase(0, line.rfind('\r') + 1);
+    if (line.empty()) continue;
+    if (line.size() > kLongest) line = line.substr(0, kLongest) + " ...";
+    lines.push_back(printable(line));
+  }
+  if (lines.size() > most)
+    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));
+  return lines;
+}
+
+}  // namespace repose::base

@@ -1,0 +1,255 @@
+#include "calibrate/engine/engine_runs.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/atomic_file.h"
+#include "base/input_error.h"
+#include "calibrate/runs/table_columns.h"
+
+namespace repose::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRun = "run";
+constexpr const char* kSeed = "seed";
+constexpr const char* kStatus = "status";
+constexpr const char* kReason = "reason";
+constexpr const char* kRunPrefix = "run_";
+constexpr const char* kDone = "ok";
+constexpr const char* kFailed = "failed";
+constexpr const char* kRowFile = "row.csv";
+
+std::vector<std::string> usual_columns(const TableStudy& study) {
+  std::vector<std::string> columns = {kRun};
+  for (const Parameter& parameter : study.parameters) columns.push_back(parameter.name);
+  for (const std::string& reading : readings_of(study)) columns.push_back(reading);
+  columns.insert(columns.end(), {kSeed, kStatus, kReason});
+  return columns;
+}
+
+/// Of "run_012"; 0: it is no such name.
+int number_in(const std::string& name) {
+  if (!name.starts_with(kRunPrefix)) return 0;
+  int number = 0;
+  const char* end = name.data() + name.size();
+  const auto [stopped_at, error] =
+      std::from_chars(name.data() + std::string_view(kRunPrefix).size(), end, number);
+  return error == std::errc{} && stopped_at == end ? number : 0;
+}
+
+}  // namespace
+
+EngineRuns::EngineRuns(const TableStudy& study, const fs::path& folder)
+    : study_(study), folder_(folder / "runs"), file_(folder_ / "runs.csv") {
+  const auto text = base::read_file_if_there(file_);
+  table_.name = file_.string();
+  if (text) table_ = parse_table(file_.string(), *text, NoRows::allowed);
+  const std::vector<std::string> usual = usual_columns(study);
+  if (table_.columns.empty()) table_.columns = usual;
+  std::vector<std::string> lacking;
+  for (const std::string& column : usual) {
+    if (table_.column(column)) continue;
+    if (column == kRun || column == kSeed || column == kStatus || column == kReason) {
+      add_column(column);
+    } else {
+      lacking.push_back(column);
+    }
+  }
+  if (!lacking.empty()) {
+    base::refuse(file_,
+                 fmt::format("its runs were made for another study: they have no {}",
+                             fmt::join(lacking, ", ")),
+                 "another folder with --out.");
+  }
+  name_rows();
+}
+
+std::string& EngineRuns::cell(std::size_t row, const std::string& column) {
+  return table_.rows[row].cells[*table_.column(column)];
+}
+
+const std::string& EngineRuns::cell(std::size_t row, const std::string& column) const {
+  return table_.rows[row].cells[*table_.column(column)];
+}
+
+/// Before the reason, in the order of their names: whichever run is the first to have one.
+void EngineRuns::add_column(const std::string& name) {
+  const std::vector<std::string> usual = usual_columns(study_);
+  std::size_t place = 0;
+  for (std::size_t k = 0; k < table_.columns.size(); ++k) {
+    const std::string& column = table_.columns[k];
+    const bool is_usual = std::ranges::find(usual, column) != usual.end();
+    if (column != kReason && (is_usual || column < name)) place = k + 1;
+  }
+  const auto at = static_cast<std::ptrdiff_t>(place);
+  table_.columns.insert(table_.columns.begin() + at, name);
+  for (TableRow& row : table_.rows) row.cells.insert(row.cells.begin() + at, std::string());
+}
+
+/// Those that somebody has added.
+void EngineRuns::name_rows() {
+  int last = 0;
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    last = std::max(last, number_in(cell(row, kRun)));
+  }
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    std::string& name = cell(row, kRun);
+    if (number_in(name) > 0) continue;
+    name = fmt::format("{}{:03}", kRunPrefix, ++last);
+  }
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    std::string& seed = cell(row, kSeed);
+    if (is_nothing(seed)) seed = fmt::format("{}", number_in(cell(row, kRun)));
+  }
+}
+
+bool EngineRuns::has_reading(std::size_t row) const {
+  return std::ranges::any_of(readings_of(study_), [&](const std::string& reading) {
+    const std::string small = in_small_letters(cell(row, reading));
+    return !is_nothing(small) && !says_failed(small);
+  });
+}
+
+bool EngineRuns::is_made(std::size_t row) const {
+  return !is_nothing(in_small_letters(cell(row, kStatus))) ||
+         std::ranges::any_of(readings_of(study_), [&](const std::string& reading) {
+           return !is_nothing(in_small_letters(cell(row, reading)));
+         });
+}
+
+bool EngineRuns::is_within_bounds(std::size_t row) const {
+  return std::ranges::all_of(study_.parameters, [&](const Parameter& parameter) {
+    const auto value = number_of(cell(row, parameter.name));
+    return value && *value >= parameter.min && *value <= parameter.max;
+  });
+}
+
+std::vector<std::size_t> EngineRuns::to_make() const {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    if (!is_made(row) && is_within_bounds(row)) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::size_t EngineRuns::made() const {
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) count += is_made(row) ? 1 : 0;
+  return count;
+}
+
+std::size_t EngineRuns::failed() const {
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    const bool says_so = says_failed(in_small_letters(cell(row, kStatus)));
+    count += is_made(row) && (says_so || !has_reading(row)) ? 1 : 0;
+  }
+  return count;
+}
+
+bool EngineRuns::has_reading() const { return failed() < made(); }
+
+void EngineRuns::retry_if_none_succeeded() {
+  if (has_reading()) return;
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    cell(row, kStatus).clear();
+    for (const std::string& reading : readings_of(study_)) cell(row, reading).clear();
+  }
+}
+
+void EngineRuns::plan(const TableRuns& table, const std::vector<NextRun>& runs) {
+  TableRuns written = table;
+  written.columns = table_.columns;
+  written.delimiter = table_.delimiter;
+  // As the numbers that are there; where there are none, with a point.
+  written.has_decimal_comma =
+      table_.delimiter != ',' && std::ranges::any_of(table_.rows, [&](const TableRow& row) {
+        return std::ranges::any_of(study_.parameters, [&](const Parameter& parameter) {
+          return row.cells[*table_.column(parameter.name)].find(',') != std::string::npos;
+        });
+      });
+  for (TableRow& row : next_runs_table(study_, written, runs).rows) {
+    table_.rows.push_back(std::move(row));
+  }
+  name_rows();
+  save();
+}
+
+EngineRun EngineRuns::run(std::size_t row) const {
+  EngineRun run{.name = cell(row, kRun), .seed = 0, .values = {}};
+  const std::string& seed = cell(row, kSeed);
+  std::from_chars(seed.data(), seed.data() + seed.size(), run.seed);
+  for (const Parameter& parameter : study_.parameters) {
+    run.values.push_back(number_of(cell(row, parameter.name)).value_or(0));
+  }
+  return run;
+}
+
+fs::path EngineRuns::folder_of(std::size_t row) const { return folder_ / cell(row, kRun); }
+
+/// The row by itself, in the run's folder, read as all rows are.
+std::string EngineRuns::fault_of(std::size_t row, const EngineOutcome& outcome) const {
+  Table one{.name = {}, .columns = {}, .rows = {{}}, .has_decimal_comma = false};
+  for (const Parameter& parameter : study_.parameters) {
+    one.columns.push_back(parameter.name);
+    one.rows.front().cells.push_back(
+        fmt::format("{}", number_of(cell(row, parameter.name)).value_or(0)));
+  }
+  for (const EngineReading& reading : outcome.readings) {
+    one.columns.push_back(reading.column);
+    one.rows.front().cells.push_back(reading.cell);
+  }
+  for (const std::string& reading : readings_of(study_)) {
+    if (one.column(reading)) continue;
+    one.columns.push_back(reading);
+    one.rows.front().cells.emplace_back();
+  }
+  const fs::path file = folder_of(row) / kRowFile;
+  base::write_whole_file(file, csv_text(one));
+  try {
+    read_table_runs(study_, {file});
+    return {};
+  } catch (const base::InputError& error) {
+    return error.what();
+  }
+}
+
+std::string EngineRuns::keep(std::size_t row, EngineOutcome outcome) {
+  if (outcome.failure.empty()) outcome.failure = fault_of(row, outcome);
+  const std::vector<std::string> asked_for = readings_of(study_);
+  const auto is_reading = [&](const EngineReading& one) {
+    return std::ranges::find(asked_for, one.column) != asked_for.end() &&
+           !says_failed(in_small_letters(one.cell));
+  };
+  if (outcome.failure.empty() && std::ranges::none_of(outcome.readings, is_reading)) {
+    outcome.failure = "none of its readings is a number or a file";
+  }
+  const bool is_good = outcome.failure.empty();
+  cell(row, kStatus) = is_good ? kDone : kFailed;
+  if (is_good) {
+    for (EngineReading& reading : outcome.readings) {
+      if (!table_.column(reading.column)) add_column(reading.column);
+      std::string& to = cell(row, reading.column);
+      to = std::move(reading.cell);
+      if (reading.is_file) {
+        to = cell(row, kRun) + '/' + to;
+      } else if (table_.delimiter != ',') {
+        // As a spreadsheet has saved it.
+        const std::string& beside = cell(row, study_.parameters.front().name);
+        if (beside.find(',') != std::string::npos) std::ranges::replace(to, '.', ',');
+      }
+    }
+  }
+  save();
+  return outcome.failure;
+}
+
+void EngineRuns::save() const { base::write_whole_file(file_, csv_text(table_)); }
+
+}  // namespace repose::calibrate

@@ -1,0 +1,302 @@
+#include "calibrate/engine/engine_study.h"
+
+#include <algorithm>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/atomic_file.h"
+#include "base/folder_lock.h"
+#include "base/input_error.h"
+#include "calibrate/engine/engine.h"
+#include "calibrate/engine/engine_runs.h"
+#include "calibrate/engine/make_runs.h"
+#include "calibrate/experiment/run_store.h"
+#include "calibrate/fit/fit_watch.h"
+#include "calibrate/run/run_study.h"
+#include "calibrate/runs/next_runs.h"
+#include "calibrate/runs/table_fit.h"
+#include "calibrate/runs/table_runs.h"
+
+namespace repose::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs of a round are asked for together: many at once keep many jobs busy, few are chosen better.
+constexpr std::size_t kRound = 8;
+/// If none of so many first ones gives a reading, none will.
+constexpr std::size_t kFirst = 3;
+
+/// Enough places for a fit, though one in six is a repeat and some may fail.
+std::size_t start_runs(std::size_t parameters) { return 3 * parameters + 3; }
+
+TableStudy study_with_engine(const EngineRequest& request) {
+  TableStudy study = read_table_study(request.study, request.settings);
+  if (study.engine) return study;
+  base::refuse(request.study, "has no [engine]: nothing says how runs are made",
+               "[engine] with command = \"python3 run.py\"; or make the runs, and give them with "
+               "--runs runs.csv.");
+}
+
+/// The study and the runs that there are, and what is to be made next.
+class EngineStudy {
+ public:
+  explicit EngineStudy(const EngineRequest& request)
+      : request_(request),
+        study_(study_with_engine(request)),
+        folder_(request.folder.empty() ? default_folder(request.study) : request.folder),
+        runs_(study_, folder_) {
+    const std::size_t parameters = study_.parameters.size();
+    most_ = static_cast<std::size_t>(
+        request.max_runs.value_or(study_.engine->max_runs.value_or(usual_max_runs(parameters))));
+    base::Faults faults;
+    if (auto fault = fault_of_folder(folder_, request.study)) faults.add(std::move(*fault));
+    const std::size_t start = start_runs(parameters);
+    faults.require(
+        most_ >= start || request.max_runs == 0 || !request.runs.empty() || runs_.made() > 0,
+        {.subject = "max_runs",
+         .value = fmt::format("{}", most_),
+         .rule =
+             fmt::format("{} or more, of which a fit of {} parameters begins", start, parameters),
+         .fix = "more runs; or fewer parameters."});
+    faults.throw_if_any();
+    runs_.retry_if_none_succeeded();
+  }
+
+  const TableStudy& study() const { return study_; }
+  const fs::path& folder() const { return folder_; }
+  EngineRuns& runs() { return runs_; }
+  std::size_t most() const { return most_; }
+
+  /// All tables.
+  std::vector<fs::path> tables() const {
+    std::vector<fs::path> files = request_.runs;
+    if (runs_.exists()) files.push_back(runs_.file());
+    return files;
+  }
+
+  /// What is still to be made of the runs asked for, or those asked for now; within the limit.
+  NextRuns ask() {
+    const std::size_t made = runs_.made();
+    const std::size_t left = most_ > made ? most_ - made : 0;
+    const TableRuns table = read_table_runs(study_, tables(), NoRows::allowed);
+    NextRuns next;
+    for (const std::size_t row : runs_.to_make()) {
+      if (next.runs.size() < left) next.runs.push_back({runs_.run(row).values, {}});
+    }
+    if (!next.runs.empty() || left == 0) return next;
+    const std::size_t round = table.places.empty() ? start_runs(study_.parameters.size()) : kRound;
+    next = next_runs(study_, table, std::min(round, left));
+    asked_ = table;
+    return next;
+  }
+
+  /// Rows for the runs that ask() has returned.
+  std::vector<std::size_t> rows_for(const NextRuns& next) {
+    if (asked_) runs_.plan(*std::exchange(asked_, std::nullopt), next.runs);
+    std::vector<std::size_t> rows = runs_.to_make();
+    rows.resize(std::min(rows.size(), next.runs.size()));
+    return rows;
+  }
+
+ private:
+  const EngineRequest& request_;
+  TableStudy study_;
+  fs::path folder_;
+  EngineRuns runs_;
+  std::size_t most_ = 0;
+  std::optional<TableRuns> asked_;  ///< what the runs asked for last were chosen by
+};
+
+/// Runs that another command, script or settings made.
+void note_other_engines(EngineStudy& of, const Engine& engine, std::vector<std::string>& notes) {
+  std::vector<std::string> others;
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (fs::directory_iterator entry(of.runs().folder(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    folders.push_back(entry->path());
+  }
+  std::ranges::sort(folders);
+  for (const fs::path& folder : folders) {
+    const std::string identity = engine.identity_in(folder);
+    if (!identity.empty() && identity != engine.identity()) {
+      others.push_back(folder.filename().string());
+    }
+  }
+  if (others.empty()) return;
+  notes.push_back(fmt::format(
+      "The command, a file that it names, or the settings have changed since {} of the runs were "
+      "made (the first: {}); they count as runs of the same model. If they are not, choose another "
+      "folder with --out, or delete their rows in {}.",
+      others.size(), others.front(), of.runs().file().string()));
+}
+
+/// Makes runs until there are enough.
+class Rounds {
+ public:
+  Rounds(EngineStudy& of, const Engine& engine, const EngineRequest& request,
+         const EngineWatch& watch)
+      : of_(of), engine_(engine), watch_(watch) {
+    settings_ = {.jobs = request.jobs,
+                 .timeout_s = of.study().engine->timeout_s,
+                 .is_interrupted = watch.is_interrupted,
+                 .report = [this] { report(); },
+                 .note =
+                     [this](const std::string& text) {
+                       last_failure_ = text;
+                       if (watch_.note) watch_.note(text);
+                     }};
+  }
+
+  /// @return  whether it came to an end
+  bool make_all() {
+    while (true) {
+      const NextRuns next = of_.ask();
+      if (next.runs.empty()) {
+        end_with(next);
+        return true;
+      }
+      const std::vector<std::size_t> rows = of_.rows_for(next);
+      asked_ = of_.runs().made() + rows.size();
+      report();
+      const auto failed = make(rows);
+      if (!failed) return false;
+      if (*failed == rows.size()) {
+        facts_.ended_by = "failures";
+        notes_.push_back(
+            fmt::format("No more runs were made: all {} of the last ones failed. See why in {}.",
+                        rows.size(), of_.runs().folder().string()));
+        return true;
+      }
+    }
+  }
+
+  EngineFacts facts() const {
+    EngineFacts facts = facts_;
+    facts.command = of_.study().engine->command;
+    facts.runs = static_cast<int>(of_.runs().made());
+    facts.failed = static_cast<int>(of_.runs().failed());
+    return facts;
+  }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  void report() const {
+    if (!watch_.report) return;
+    watch_.report({.made = of_.runs().made(),
+                   .failed = of_.runs().failed(),
+                   .asked = asked_,
+                   .most = of_.most()});
+  }
+
+  /// A few first, as long as none has given a reading.
+  std::optional<std::size_t> make(const std::vector<std::size_t>& rows) {
+    std::size_t failed = 0, begun = 0;
+    if (!of_.runs().has_reading()) {
+      begun = std::min(kFirst, rows.size());
+      const std::vector<std::size_t> first(rows.begin(),
+                                           rows.begin() + static_cast<std::ptrdiff_t>(begun));
+      const auto of_first = make_runs(of_.runs(), engine_, first, settings_);
+      if (!of_first) return std::nullopt;
+      failed = *of_first;
+      if (failed == begun) refuse_engine(begun);
+    }
+    const std::vector<std::size_t> others(rows.begin() + static_cast<std::ptrdiff_t>(begun),
+                                          rows.end());
+    const auto of_others = make_runs(of_.runs(), engine_, others, settings_);
+    if (!of_others) return std::nullopt;
+    return failed + *of_others;
+  }
+
+  [[noreturn]] void refuse_engine(std::size_t runs) const {
+    throw base::InputError(
+        {.where = of_.study().file.string(),
+         .subject = "engine.command",
+         .value = fmt::format("gave no reading in its first {} runs; the last of them: {}", runs,
+                              last_failure_),
+         .fix = fmt::format("see the folders in {}; then give the same command again.",
+                            of_.runs().folder().string())});
+  }
+
+  void end_with(const NextRuns& next) {
+    if (of_.runs().made() < of_.most()) {
+      facts_.ended_by = "settled";
+      // What would narrow the answer in their place, the fit advises.
+      notes_.insert(notes_.end(), next.settled.begin(),
+                    next.settled.begin() + (next.settled.empty() ? 0 : 1));
+      return;
+    }
+    facts_.ended_by = "max_runs";
+    if (of_.most() == 0) return;
+    notes_.push_back(fmt::format(
+        "All {} runs that may be made were made; more might narrow the answer. Fix: --max-runs.",
+        of_.most()));
+  }
+
+  EngineStudy& of_;
+  const Engine& engine_;
+  const EngineWatch& watch_;
+  MakeSettings settings_;
+  EngineFacts facts_;
+  std::vector<std::string> notes_;
+  std::string last_failure_;
+  std::size_t asked_ = 0;
+};
+
+}  // namespace
+
+int usual_max_runs(std::size_t parameters) {
+  constexpr int kEach = 8, kAll = 16;
+  return kAll + kEach * static_cast<int>(parameters);
+}
+
+std::optional<StudyResult> calibrate_with_engine(const EngineRequest& request,
+                                                 const EngineWatch& watch) {
+  EngineStudy of(request);
+  const std::unique_ptr<Engine> engine = command_engine(of.study());
+  std::error_code error;
+  fs::create_directories(of.runs().folder(), error);
+  if (error) {
+    base::refuse(of.folder(), fmt::format("cannot be made ({})", error.message()),
+                 "choose another folder.");
+  }
+  const base::FolderLock lock(of.folder(), lock_file_in(of.folder()));
+  std::vector<std::string> notes;
+  note_other_engines(of, *engine, notes);
+  if (watch.note) std::ranges::for_each(notes, watch.note);
+  static const std::atomic<bool> never = false;
+  const std::atomic<bool>& is_interrupted =
+      watch.is_interrupted != nullptr ? *watch.is_interrupted : never;
+  Rounds rounds(of, *engine, request, watch);
+  try {
+    const FitWatch fit_watch(is_interrupted);
+    if (!rounds.make_all()) return std::nullopt;
+  } catch (const FitInterrupted&) {
+    return std::nullopt;
+  }
+  notes.insert(notes.end(), rounds.notes().begin(), rounds.notes().end());
+  return calibrate_table({.study = request.study,
+                          .settings = request.settings,
+                          .runs = of.tables(),
+                          .folder = of.folder(),
+                          .engine = rounds.facts(),
+                          .notes = notes},
+                         watch.note, is_interrupted);
+}
+
+EngineForecast forecast_of(const EngineRequest& request) {
+  EngineStudy of(request);
+  NextRuns next = of.ask();
+  return {.made = of.runs().made(),
+          .failed = of.runs().failed(),
+          .next = next.runs.size(),
+          .most = of.most(),
+          .run_s = mean_run_s(of.runs()),
+          .settled = std::move(next.settled)};
+}
+
+}  // namespace repose::calibrate
