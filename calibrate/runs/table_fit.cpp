@@ -314,7 +314,7 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
     faults.add_all(error.faults());
   }
   faults.throw_if_any();
-  sound_problem_of(*study, *table);  // before a folder is made
+  sound_problem_of(*study, *table);      // before a folder is made
   std::optional<base::FolderLock> lock;  // who made the runs holds it already
   if (!request.engine) lock.emplace(locked(folder));
   std::optional<StudyResult> result;

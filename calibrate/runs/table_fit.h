@@ -35,10 +35,10 @@ struct TableRequest {
   std::filesystem::path study;
   std::vector<std::string> settings = {};
   std::vector<std::filesystem::path> runs;
-  std::filesystem::path folder = {};       ///< empty: default_folder() of the study
+  std::filesystem::path folder = {};  ///< empty: default_folder() of the study
   /// That the runs were made by, whose caller has locked the folder; none: by hand.
   std::optional<EngineFacts> engine = {};
-  std::vector<std::string> notes = {};     ///< of how they were made, for the result's warnings
+  std::vector<std::string> notes = {};  ///< of how they were made, for the result's warnings
 };
 
 /// Reads study and tables, fits, and leaves a copy of the study and result.json in the folder: what
