@@ -314,11 +314,11 @@ heap (with --group-by-name those whose names differ in a last number after _ or
 - alone are of one heap, which has their mean), or simulated heaps, as written
 by repose simulate heap --out and repose calibrate --out; a .vtp file is one
 such heap, as is a file of particles of another program (repose measure tells
-how they are read). Its pictures are drawn as from far away. A level camera that
-stands three widths from the heap reads some .8 degrees less, for the nuts of the
-sample: --camera-mm says where the photographs were taken from, by the lens's
-distance from the heap's middle and its height above the ground, so that both
-sets are seen alike. A three-dimensional scan, or a folder of them, is drawn
+how they are read). Its pictures are drawn as from far away. A level camera
+that stands three widths from the heap reads some .8 degrees less, for the nuts
+of the sample: --camera-mm says where the photographs were taken from, by the
+lens's distance from the heap's middle and its height above the ground, so that
+both sets are seen alike. A three-dimensional scan, or a folder of them, is drawn
 likewise: its angle here is that of its silhouettes, not of its slices. Where a
 photograph is compared with one scan, it shows one side: by how much the scan's
 views scatter is in the interval.
