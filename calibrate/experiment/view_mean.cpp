@@ -22,14 +22,21 @@ bool counts(const vision::ReposeAngle& view) {
   return counts_in_mean(view.status) && view.angle_rad.has_value();
 }
 
-/// Mean and Student's half-width of what the views have of a number; none of none.
+/// What the views that count have of a number.
 template <typename Number>
-std::optional<Summary> summary_of(Views views, const Number& number) {
+std::vector<double> all_of(Views views, const Number& number) {
   std::vector<double> values;
   for (const vision::ReposeAngle& view : views) {
     if (!counts(view)) continue;
     if (const std::optional<double> value = number(view)) values.push_back(*value);
   }
+  return values;
+}
+
+/// Mean and Student's half-width of what the views have of a number; none of none.
+template <typename Number>
+std::optional<Summary> summary_of(Views views, const Number& number) {
+  const std::vector<double> values = all_of(views, number);
   if (values.empty()) return std::nullopt;
   return summarise(values);
 }
@@ -49,16 +56,6 @@ double half_width(const Summary& summary, std::vector<double> own) {
     common = *middle;
   }
   return std::hypot(summary.mean_uncertainty.value_or(0), common);
-}
-
-template <typename Number>
-std::vector<double> all_of(Views views, const Number& number) {
-  std::vector<double> values;
-  for (const vision::ReposeAngle& view : views) {
-    if (!counts(view)) continue;
-    if (const std::optional<double> value = number(view)) values.push_back(*value);
-  }
-  return values;
 }
 
 vision::Flank flank_of(Views views, vision::Flank vision::ReposeAngle::*side) {

@@ -318,10 +318,10 @@ how they are read). Its pictures are drawn as from far away. A level camera
 that stands three widths from the heap reads some .8 degrees less, for the nuts
 of the sample: --camera-mm says where the photographs were taken from, by the
 lens's distance from the heap's middle and its height above the ground, so that
-both sets are seen alike. A three-dimensional scan, or a folder of them, is drawn
-likewise: its angle here is that of its silhouettes, not of its slices. Where a
-photograph is compared with one scan, it shows one side: by how much the scan's
-views scatter is in the interval.
+both sets are seen alike. A three-dimensional scan, or a folder of them, is
+drawn likewise: its angle here is that of its silhouettes, not of its slices.
+Where a photograph is compared with one scan, it shows one side: by how much the
+scan's views scatter is in the interval.
 
 Scale: mm per pixel, or the known width of the base. One value applies to both
 pictures, A,B to one each. A scale that repose measure --save-hints has saved
