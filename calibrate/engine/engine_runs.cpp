@@ -43,12 +43,28 @@ int number_in(const std::string& name) {
   return error == std::errc{} && stopped_at == end ? number : 0;
 }
 
+/// Runs are numbered by the table: without it new ones would stand where these are.
+void refuse_runs_without_table(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& run = entry->path();
+    if (number_in(run.filename().string()) == 0 || !fs::exists(run / kReadingFile)) continue;
+    base::refuse(
+        file, "is not there, and folders of runs that were made are",
+        fmt::format("put it back, or make it from the {} of each folder, or choose another "
+                    "folder with --out.",
+                    kRowFile));
+  }
+}
+
 }  // namespace
 
 EngineRuns::EngineRuns(const TableStudy& study, const fs::path& folder)
     : study_(study), folder_(folder / "runs"), file_(folder_ / "runs.csv") {
   const auto text = base::read_file_if_there(file_);
   table_.name = file_.string();
+  if (!text) refuse_runs_without_table(folder_, file_);
   if (text) table_ = parse_table(file_.string(), *text, NoRows::allowed);
   const std::vector<std::string> usual = usual_columns(study);
   if (table_.columns.empty()) table_.columns = usual;

@@ -14,6 +14,7 @@
 #include "calibrate/study/study_simulator.h"
 #include "dem/experiment/experiment_table.h"
 #include "dem/experiment/heap.h"
+#include "dem/experiment/tilt.h"
 #include "dem/study/study.h"
 
 namespace repose::calibrate {
@@ -71,6 +72,10 @@ FurtherRuns further_runs(const ExportFacts& facts, ExportTarget target,
   for (const BenchMean& reading : bench) {
     const dem::Experiment experiment = dem::find_experiment(reading.experiment);
     if (experiment == nullptr || !facts.has_deck(experiment) || reading.uncertainty <= 0) continue;
+    if (!target->has_tables && experiment == dem::experiment_of<dem::TiltProtocol>()) {
+      further.is_tilt_left_out = true;
+      continue;
+    }
     known.push_back(reading);
   }
   std::vector<const Conversion*> wanted = sought(facts, conversions, false);

@@ -29,6 +29,9 @@ struct FurtherRuns {
   /// "3 coefficients that the study did not determine".
   std::string parameters_text() const;
   bool are_all_varied = false;  ///< the study determined all of them
+  /// Of a bench that tilted: decks print the plate's angle once the body has slipped half a
+  /// millimetre, and the bench's is the onset, which is less: no reading of such runs.
+  bool is_tilt_left_out = false;
 };
 
 /// Those coefficients that the study sought and did not determine, or all where it determined all;

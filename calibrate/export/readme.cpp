@@ -85,6 +85,7 @@ void add_heap_back(const ExportFacts& facts, ExportTarget target, DeckFields& fi
 }
 
 void add_further_runs(const FurtherRuns& further, DeckFields& fields) {
+  if (further.is_tilt_left_out) fields.add_section("TILT_LEFT_OUT");
   if (further.readings.empty()) return;
   DeckFields& runs = fields.add_section("FURTHER");
   runs.set("STUDY_FILE", kFurtherRunsFile);

@@ -162,17 +162,19 @@ void note_constant(const TableStudy& study, const TableRuns& table,
   }
 }
 
-/// Bounds that reach far beyond the rows.
+/// Bounds that reach far beyond the rows with readings.
 void note_extrapolation(const TableStudy& study, const TableRuns& table,
                         std::vector<std::string>& notes) {
   constexpr double kFar = .1;  // of the bounds' distance
   for (std::size_t j = 0; j < study.parameters.size() && !table.places.empty(); ++j) {
     const Parameter& parameter = study.parameters[j];
     double low = parameter.max, high = parameter.min;
-    for (const std::vector<double>& place : table.places) {
-      low = std::min(low, place[j]);
-      high = std::max(high, place[j]);
+    for (const Run& run : table.runs) {
+      if (run.readings.empty()) continue;
+      low = std::min(low, run.job.values[j]);
+      high = std::max(high, run.job.values[j]);
     }
+    if (low > high) return;  // no run has a reading
     const double far = kFar * (parameter.max - parameter.min);
     if (low == high || (low - parameter.min < far && parameter.max - high < far)) continue;
     notes.push_back(fmt::format(

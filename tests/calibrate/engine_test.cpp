@@ -142,6 +142,15 @@ TEST_F(EngineStudyTest, GoesOnWhereItWasInterrupted) {
       Contains(HasSubstr("have changed since 4 of the runs were made (the first: run_001)")));
 }
 
+TEST_F(EngineStudyTest, RunsWhoseTableIsGoneAreNotOverwritten) {
+  calibrated(request());
+  const std::string reading = text("out/runs/run_001/reading.json");
+  fs::remove(place_ / "out/runs/runs.csv");
+  EXPECT_THAT(error_of([&] { calibrated(request()); }),
+              AllOf(HasSubstr("runs.csv"), HasSubstr("is not there"), HasSubstr("put it back")));
+  EXPECT_EQ(text("out/runs/run_001/reading.json"), reading);
+}
+
 TEST_F(EngineStudyTest, StopsWhereNoneOfTheFirstRunsGivesAReading) {
   script("echo licence server not found >&2; exit 4\n");
   EXPECT_THAT([&] { calibrated(request()); },

@@ -402,6 +402,27 @@ TEST(ExportStudy, FurtherRunsVaryWhatIsNotDetermined) {
                     Not(HasSubstr("repose ask"))));
 }
 
+// Their decks print the angle at half a millimetre's slip, and the bench gives the onset.
+TEST(ExportStudy, ATiltIsNoReadingOfFurtherRunsOfDecks) {
+  const auto further = [](ExportTarget target) {
+    dem::Study study = hazelnuts();
+    study.particle_wall.sliding_friction = sought(.1, .8);
+    return export_study(study, study.model.grain,
+                        {{.name = "contact.particle_wall.sliding_friction",
+                          .value = .4,
+                          .verdict = "undetermined"}},
+                        {.target = target, .takes_approximate = true}, {},
+                        {{.experiment = "tilt", .unit = "deg", .mean = 22.7, .uncertainty = .5},
+                         {.experiment = "heap", .unit = "deg", .mean = 23.4, .uncertainty = .25}});
+  };
+  for (const ExportTarget target : {yade_target(), liggghts_target()}) {
+    EXPECT_THAT(file_text(further(target), "further_runs.toml"), Not(HasSubstr("tilt =")));
+    EXPECT_THAT(file_text(further(target), "README.txt"),
+                HasSubstr("The tilt is no reading of further runs"));
+  }
+  EXPECT_THAT(file_text(further(edem_target()), "further_runs.toml"), HasSubstr("tilt = "));
+}
+
 TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
   const dem::Study study = hazelnuts();
   const double mass = 851 * study.model.grain.volume_m3;

@@ -483,6 +483,10 @@ TEST_F(TableFitTest, SaysWhereThereAreNoRows) {
   };
   EXPECT_THAT(warnings(.3, .7), Contains(HasSubstr("x: the rows are from 0.3 to 0.7")));
   EXPECT_THAT(warnings(.05, .95), Not(Contains(HasSubstr("extrapolated"))));
+  // Where all runs failed there are no readings either.
+  const TableRuns with_failed = runs(of, line_rows(.3, .7) + "0.02,0.5,failed\n0.98,0.5,failed\n");
+  EXPECT_THAT(std::get<JointResult>(fit_table(of, with_failed).found).warnings,
+              Contains(HasSubstr("x: the rows are from 0.3 to 0.7")));
 }
 
 TEST_F(TableFitTest, ResultComesBackFromItsTextWithoutAModel) {

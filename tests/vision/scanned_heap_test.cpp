@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -268,6 +269,11 @@ TEST(ScannedHeap, ADiscAsWideAsTheHeapIsFlaggedAsAStep) {
   };
   EXPECT_THAT(on_disc(25).angle.warnings, scan_warns("step_at_foot"));
   EXPECT_EQ(on_disc(25).angle.status, MeasureStatus::flagged);
+  for (const Warning& warning : on_disc(25).angle.warnings) {
+    EXPECT_TRUE(std::ranges::none_of(warning.message, [](char letter) {
+      return std::iscntrl(static_cast<unsigned char>(letter)) != 0;
+    })) << warning.message;
+  }
   EXPECT_THAT(on_disc(0).angle.warnings, ::testing::Not(scan_warns("step_at_foot")));
 }
 

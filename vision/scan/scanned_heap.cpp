@@ -293,6 +293,9 @@ void add_sizes(const Survey& survey, const Volume& volume, double angle_rad, Sca
 void name_fields(base::FieldNames names, ScannedHeap& result) {
   result.angle.reason = base::with_names(result.angle.reason, names);
   result.size_reason = base::with_names(result.size_reason, names);
+  for (Warning& warning : result.angle.warnings) {
+    warning.message = base::with_names(warning.message, names);
+  }
 }
 
 ScannedHeap refused(ScannedHeap result, std::string reason) {
