@@ -20,6 +20,7 @@
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/scan_angle.h"
 #include "calibrate/particles/positions_angle.h"
+#include "calibrate/statistics/summary.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/terminal.h"
@@ -273,6 +274,20 @@ struct MeasuredHeap {
   std::string error;
 };
 
+/// Half-width of the interval that holds 95 % of the flanks in all views: nobody knows which side
+/// of a scanned heap is which of another.
+double scatter_of_sides(const std::vector<vision::ReposeAngle>& views) {
+  std::vector<double> sides_rad;
+  for (const vision::ReposeAngle& view : views) {
+    for (const vision::Flank* side : {&view.left, &view.right}) {
+      if (side->angle_rad) sides_rad.push_back(*side->angle_rad);
+    }
+  }
+  if (sides_rad.size() < 2) return 0;
+  const calibrate::Summary sides = calibrate::summarise(sides_rad);
+  return base::student_t_quantile(.975, sides.n - 1) * sides.sd.value_or(0);
+}
+
 /// The view of a scan that is nearest to the mean stands for it; the angle is the mean of all.
 MeasuredHeap measured_scan(const std::filesystem::path& file,
                            const vision::MeasureOptions& options) {
@@ -284,6 +299,7 @@ MeasuredHeap measured_scan(const std::filesystem::path& file,
                     .between_views_rad = seen.between_views_rad,
                     .error = {}};
   if (!heap.angle.angle_rad) return heap;
+  const double sides_rad = scatter_of_sides(seen.views);
   vision::ReposeAngle mean = std::move(heap.angle);
   heap.angle = std::move(seen.views[seen.typical]);
   heap.angle.status = mean.status;
@@ -291,6 +307,11 @@ MeasuredHeap measured_scan(const std::filesystem::path& file,
   heap.angle.uncertainty_rad = mean.uncertainty_rad;
   heap.angle.own_uncertainty_rad = mean.own_uncertainty_rad;
   heap.angle.warnings = std::move(mean.warnings);
+  for (vision::Flank* side : {&heap.angle.left, &heap.angle.right}) {
+    if (!side->uncertainty_rad) continue;
+    side->uncertainty_rad =
+        std::hypot(*side->uncertainty_rad, sides_rad, mean.uncertainty_rad.value_or(0));
+  }
   return heap;
 }
 

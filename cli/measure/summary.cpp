@@ -99,12 +99,30 @@ std::string remarks_on(const Summary& summary) {
   return text;
 }
 
+/// The angle of a scan is not that of pictures.
+std::string scans_text(const Summary& summary) {
+  if (summary.scans == 0) return "";
+  std::string text;
+  if (summary.scans < summary.pictures.pictures) {
+    text = fmt::format(
+        "\n{} of these are scans, with the angle of their slices; pictures and "
+        "particles show that of silhouettes: do not mix them",
+        summary.scans);
+  }
+  if (summary.silhouettes.heaps_deg) {
+    text += other_text("of the scans in silhouette, as compare and studies take them",
+                       *summary.silhouettes.heaps_deg);
+  }
+  return text;
+}
+
 }  // namespace
 
 Summary summarise(const std::vector<MeasuredPicture>& pictures) {
   Summary summary;
   std::vector<calibrate::SetPicture> set;
   std::vector<const MeasuredPicture*> from;
+  std::vector<calibrate::SetPicture> silhouettes;
   for (const MeasuredPicture& picture : pictures) {
     if (is_of_series(picture)) continue;
     if (!picture.copy_of.empty()) {
@@ -114,11 +132,15 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
     if (picture.outcome == Outcome::measured) {
       set.push_back(calibrate::set_picture_of(picture.angle, picture.heap));
       from.push_back(&picture);
+      if (!picture.scan || !picture.silhouettes) continue;
+      summary.scans += picture.angle.angle_rad ? 1 : 0;
+      silhouettes.push_back(calibrate::set_picture_of(picture.silhouettes->angle, picture.heap));
     } else {
       ++summary.not_read;
     }
   }
   summary.pictures = calibrate::set_of_pictures(set);
+  if (!silhouettes.empty()) summary.silhouettes = calibrate::set_of_pictures(silhouettes);
   for (const calibrate::OutlyingPicture& outlier : summary.pictures.outliers) {
     summary.outliers.push_back({.file = from[outlier.place]->file,
                                 .angle_deg = *set[outlier.place].angle_deg,
@@ -144,7 +166,7 @@ std::string summary_text(const Summary& summary) {
   const calibrate::PictureSet& set = summary.pictures;
   const std::string remarks = heaps_text(set) + remarks_on(summary) + other_means(set);
   if (!set.heaps_deg) return "no mean: no picture could be measured" + remarks;
-  return "mean " + mean_text(*set.heaps_deg) + remarks;
+  return "mean " + mean_text(*set.heaps_deg) + remarks + scans_text(summary);
 }
 
 namespace {
@@ -195,6 +217,8 @@ std::string summary_json(const Summary& summary, const vision::MeasureOptions& o
   if (set.heaps_deg) json["camera_deg"] = rounded(set.camera_deg);
   json["ok"] = mean_json(set.ok_deg);
   json["all"] = mean_json(set.all_deg);
+  json["scans"] = summary.scans;
+  json["silhouettes"] = mean_json(summary.silhouettes.heaps_deg);
   json["outliers"] = nlohmann::ordered_json::array();
   for (const NamedOutlier& outlier : summary.outliers) {
     json["outliers"].push_back({{"file", outlier.file},

@@ -23,6 +23,9 @@ struct Summary {
   std::vector<NamedOutlier> outliers;
   int not_read = 0;
   int copies = 0;  ///< of pictures that are counted
+  int scans = 0;   ///< among those that are counted
+  /// Of the scans in silhouette, as compare and studies take them.
+  calibrate::PictureSet silhouettes = {};
 };
 
 Summary summarise(const std::vector<MeasuredPicture>& pictures);

@@ -53,6 +53,11 @@ TEST_F(CompareScans, OfTwoScansTheirSilhouettesAreCompared) {
   const json compared = result({"scans/a.ply", "scans/b.ply"});
   EXPECT_NEAR(compared["angle_difference_deg"].get<double>(), .5, .2);
   EXPECT_EQ(compared["verdict"], "equivalent");
+  // Which side of one is which of the other, nobody knows.
+  const json& left = compared["left"]["angle_difference_interval"];
+  const json& all = compared["angle_difference_interval"];
+  EXPECT_GT(left[1].get<double>() - left[0].get<double>(),
+            all[1].get<double>() - all[0].get<double>());
   const json same = result({"scans/a.ply", "scans/a.ply"});
   EXPECT_EQ(same["angle_difference_deg"], 0);
 }

@@ -6,6 +6,7 @@
 
 #include "tests/cli/run_program.h"
 #include "tests/support/drawn_scan.h"
+#include "tests/support/heap_picture.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/picture/picture.h"
@@ -58,6 +59,22 @@ TEST_F(MeasureScan, TellsItsSizesAndWhyThereAreNone) {
               AllOf(HasSubstr("72 azimuths"), HasSubstr("in silhouette from 9 sides"),
                     HasSubstr("volume "), HasSubstr(" ml")));
   EXPECT_THAT(run({"heap.ply"}).out, AllOf(HasSubstr("no sizes"), HasSubstr("(--unit")));
+}
+
+TEST_F(MeasureScan, OfSeveralTheMeanInSilhouetteIsBeside) {
+  folder_.write("other.ply", ply_of(drawn_scan({.surface = cone_surface(26, 80), .seed = 3})));
+  const Finished scans = run({"heap.ply", "other.ply", "--unit", "mm", "--summary", "mean.json"});
+  ASSERT_EQ(scans.exit_code, 0) << scans.err;
+  EXPECT_THAT(scans.out, HasSubstr("of the scans in silhouette, as compare and studies take them"));
+  const json summary = json::parse(text_of(folder_.path() / "mean.json"));
+  EXPECT_EQ(summary["scans"], 2);
+  EXPECT_EQ(summary["silhouettes"]["n"], 2);
+  EXPECT_NEAR(summary["silhouettes"]["mean_deg"].get<double>(), 26.5, .3);
+  HeapScene scene;
+  scene.width = 600;
+  scene.height = 400;
+  vision::write_picture(folder_.path() / "photo.png", draw_heap(scene).picture);
+  EXPECT_THAT(run({"heap.ply", "photo.png"}).out, HasSubstr("do not mix them"));
 }
 
 TEST_F(MeasureScan, DrawsAnOverlayAndWritesARowAndAPage) {
