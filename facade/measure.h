@@ -33,7 +33,7 @@
 ///         return 1;
 ///       }
 ///       std::cout << repose::to_degrees(*angle.angle_rad) << " degrees\n";
-///       repose::write_picture("overlay.png", repose::draw_overlay(seen.picture, angle, {}));
+///       repose::write_picture("overlay.png", repose::draw_overlay(seen.measured(), angle, {}));
 ///     }
 ///
 /// What cannot be used is an InputError: what() says in a line for each fault where it is, what is

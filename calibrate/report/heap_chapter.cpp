@@ -23,7 +23,7 @@
 #include "vision/compare/heap_comparison.h"
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/drawing/overlay.h"
-#include "vision/film/film_angle.h"
+#include "vision/files/heap_file.h"
 #include "vision/hints/hint_file.h"
 #include "vision/scan/scan_file.h"
 
@@ -81,26 +81,19 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
     MeasuredHeap heap{.title = name, .picture = {}, .angle = {}};
     vision::PictureSettings given;
     given.measuring.definition = definition;
-    const auto [told, scale] = vision::with_saved_hints(given, picture.file);
-    vision::SizedHeap sized;
     std::optional<double> angle_rad;
     if (vision::has_scan_ending(picture.file)) {
-      ScanViews seen = measure_scan_file(picture.file, told);
+      ScanViews seen = measure_scan_file(picture.file, given.measuring);
       heap.title += ", one of its views";
       heap.picture = std::move(seen.typical_picture);
-      sized.angle = std::move(seen.views[seen.typical]);
+      heap.angle = std::move(seen.views[seen.typical]);
       angle_rad = seen.angle.angle_rad;
-    } else if (vision::has_film_ending(picture.file)) {
-      vision::FilmAngle film = vision::measure_film(picture.file, told, scale);
-      heap.picture = std::move(film.picture);
-      sized = std::move(film.heap);
     } else {
-      heap.picture = vision::read_picture(picture.file);
-      sized = vision::measure_sized_heap(heap.picture, told, scale);
+      vision::HeapInFile seen = vision::measure_heap_file(picture.file, given);
+      heap.picture = seen.measured();
+      heap.angle = std::move(seen.heap.angle);
+      angle_rad = heap.angle.angle_rad;
     }
-    if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
-    heap.angle = std::move(sized.angle);
-    if (!angle_rad) angle_rad = heap.angle.angle_rad;
     constexpr double kSame_deg = 0.01;
     const bool is_same =
         angle_rad && std::abs(*angle_rad / kDegree - picture.angle_deg.value_or(0)) <= kSame_deg;

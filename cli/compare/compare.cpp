@@ -30,7 +30,7 @@
 #include "vision/drawing/heap_comparison_overlay.h"
 #include "vision/drawing/heap_sets_figure.h"
 #include "vision/files/file_list.h"
-#include "vision/hints/hint_file.h"
+#include "vision/files/heap_file.h"
 #include "vision/scan/scan_file.h"
 
 namespace repose::cli {
@@ -106,15 +106,12 @@ void measure(const ComparePlan& plan, const Task& task, render::Renderer* render
     seen = {.views = std::move(scan.views), .m_per_px = scan.m_per_px};
     return;
   }
-  const vision::Picture picture = vision::read_picture(file);
-  work.pixels[task.set][task.heap] = vision::pixels_of(picture);
-  const vision::PictureSettings told =
-      vision::with_saved_hints({.measuring = options, .scale = {}}, file);
-  vision::SizedHeap heap = vision::measure_sized_heap(picture, told.measuring, told.scale);
-  if (!seen.m_per_px && heap.sizes.mm_per_px) {
-    seen.m_per_px = heap.sizes.mm_per_px->value / 1000;
-  }
-  seen.views.front() = std::move(heap.angle);
+  vision::HeapInFile measured =
+      vision::measure_heap_file(file, {.measuring = options, .scale = {}});
+  work.pixels[task.set][task.heap] = vision::pixels_of(measured.picture);
+  const std::optional<vision::Estimate>& mm_per_px = measured.heap.sizes.mm_per_px;
+  if (!seen.m_per_px && mm_per_px) seen.m_per_px = mm_per_px->value / 1000;
+  seen.views.front() = std::move(measured.heap.angle);
 }
 
 void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupted, Work& work) {
@@ -317,15 +314,15 @@ MeasuredHeap measured_scan(const std::filesystem::path& file,
 
 MeasuredHeap measured(const std::filesystem::path& file, const vision::MeasureOptions& options) {
   if (vision::has_scan_ending(file)) return measured_scan(file, options);
-  MeasuredHeap heap;
-  heap.picture = vision::read_picture(file);
-  const vision::PictureSettings told =
-      vision::with_saved_hints({.measuring = options, .scale = {}}, file);
-  vision::SizedHeap sized = vision::measure_sized_heap(heap.picture, told.measuring, told.scale);
-  if (!sized.corrected.empty()) heap.picture = std::move(sized.corrected);
-  heap.used = told.measuring;
-  heap.angle = std::move(sized.angle);
-  if (sized.sizes.mm_per_px) heap.m_per_px = sized.sizes.mm_per_px->value / 1000;
+  vision::HeapInFile seen = vision::measure_heap_file(file, {.measuring = options, .scale = {}});
+  MeasuredHeap heap{.picture = seen.measured(),
+                    .used = std::move(seen.told.measuring),
+                    .angle = std::move(seen.heap.angle),
+                    .m_per_px = {},
+                    .between_views_rad = {},
+                    .error = {}};
+  const std::optional<vision::Estimate>& scale = seen.heap.sizes.mm_per_px;
+  if (scale) heap.m_per_px = scale->value / 1000;
   return heap;
 }
 

@@ -29,6 +29,7 @@
 #include "vision/drawing/overlay.h"
 #include "vision/drawing/scan_overlay.h"
 #include "vision/files/file_list.h"
+#include "vision/files/heap_file.h"
 #include "vision/film/film_angle.h"
 #include "vision/hints/hint_file.h"
 #include "vision/picture/made_here.h"
@@ -239,7 +240,7 @@ std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size
   attempt(measured.front(), [&] {
     MeasuredPicture& rest = measured.front();
     rest.told = vision::with_saved_hints({plan.options, plan.scale}, file);
-    const vision::FilmFile frames{file, plan.frames_per_s};
+    const vision::FilmFile frames{file, plan.frames_per_s, {}, rest.told.measuring.hints.turn_deg};
     vision::FilmAngle film = vision::measure_film(frames, rest.told.measuring, rest.told.scale,
                                                   [&](double done) { progress(rest_part * done); });
     if (plan.every_s) check_step(*plan.every_s, film);
@@ -261,14 +262,12 @@ std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::s
   std::vector<MeasuredPicture> measured(1);
   measured.front().file = file.string();
   attempt(measured.front(), [&] {
-    const vision::Picture picture = vision::read_picture(file);
     MeasuredPicture& one = measured.front();
-    one.pixels = vision::pixels_of(picture);
-    one.told = vision::with_saved_hints({plan.options, plan.scale}, file);
-    vision::SizedHeap heap =
-        vision::measure_sized_heap(picture, one.told.measuring, one.told.scale);
-    take(heap, one);
-    finish(plan, index, {seen_in(picture, heap), heap.options}, one);
+    vision::HeapInFile seen = vision::measure_heap_file(file, {plan.options, plan.scale});
+    one.pixels = vision::pixels_of(seen.picture);
+    one.told = seen.told;
+    take(seen.heap, one);
+    finish(plan, index, {seen.measured(), seen.heap.options}, one);
   });
   drop_large_parts(measured.front());
   return measured;

@@ -257,7 +257,8 @@ Json line_json(const std::optional<vision::Segment>& line) {
 /// What a person has said of the picture; null when nothing.
 Json hints_json(const vision::Hints& hints) {
   if (hints.empty() && hints.source.empty()) return nullptr;
-  return {{"heap", box_json(hints.heap)},
+  return {{"rotate_deg", hints.turn_deg == 0 ? Json() : Json(hints.turn_deg)},
+          {"heap", box_json(hints.heap)},
           {"half", hints.half ? Json(name_of(*hints.half)) : Json()},
           {"ground", line_json(hints.ground)},
           {"keep", places_json(hints.keep)},
@@ -275,7 +276,8 @@ Json excluded_json(const std::vector<vision::Box>& boxes) {
 /// What would help a refused picture; null when nothing is known.
 Json proposal_json(const std::optional<vision::Proposal>& proposal) {
   if (!proposal) return nullptr;
-  return {{"exclude", box_json(proposal->excluded)},
+  return {{"rotate_deg", proposal->turn_deg == 0 ? Json() : Json(proposal->turn_deg)},
+          {"exclude", box_json(proposal->excluded)},
           {"heap", box_json(proposal->heap)},
           {"ground", line_json(proposal->ground)},
           {"angle_deg", degrees(proposal->angle_rad)},

@@ -58,6 +58,9 @@ void read_places(const char* option, const std::vector<std::string>& typed,
 /// What a person says of every picture that is measured.
 void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
   vision::Hints& hints = plan.options.hints;
+  hints.turn_deg = read_choice<int>({"--rotate", arguments.rotate, plan.errors},
+                                    {{"90", 90}, {"180", 180}, {"270", 270}})
+                       .value_or(0);
   if (const auto box = read_box({"--heap", arguments.heap, plan.errors})) {
     const auto [x, y, width, height] = *box;
     hints.heap = vision::Box{.x = x, .y = y, .width = width, .height = height};
@@ -141,6 +144,7 @@ void check_kinds_of_files(const MeasureArguments& arguments, MeasurePlan& plan) 
   const ScaleArguments& scale = arguments.scale;
   for (const auto& [option, is_given] :
        {std::pair{"--exclude", !arguments.exclude.empty()},
+        std::pair{"--rotate", !arguments.rotate.empty()},
         std::pair{"--heap", !arguments.heap.empty()}, std::pair{"--half", !arguments.half.empty()},
         std::pair{"--ground", !arguments.ground.empty()},
         std::pair{"--keep", !arguments.keep.empty()}, std::pair{"--drop", !arguments.drop.empty()},
@@ -254,9 +258,9 @@ Definitions: --definition makes another one the number, with its own interval:
 
 Hints: if the heap is not found, mark where it is. --heap alone is often enough;
 --ground is needed if the foot is hidden. Positions are in pixels from the
-picture's top left corner. --save-hints saves them, with --exclude, --pitch-deg
-and what gives millimetres, in PICTURE.repose.toml, which is read whenever
-PICTURE is measured again. For a refused picture, hints are tried and the best
+picture's top left corner, once --rotate has turned it. --save-hints saves them,
+with --exclude, --pitch-deg and what gives millimetres, in PICTURE.repose.toml,
+which is read whenever PICTURE is measured again. For a refused picture, hints are tried and the best
 one is suggested.
 
 Sizes: with a board (repose board) upright beside the heap and in the plane of
@@ -289,6 +293,7 @@ Command measure_command() {
            {"--window", "FROM,TO", "Fitted part of the height (0.2,0.8)", &given->window},
            {"--definition", "NAME", "Which angle it is (flank_20_80)", &given->definition},
            {"--exclude", "X,Y,W,H", "Box in pixels to ignore; repeatable", &given->exclude},
+           {"--rotate", "90|180|270", "Turn clockwise until it is upright", &given->rotate},
            {"--heap", "X,Y,W,H", "Box in pixels around the heap", &given->heap},
            {"--half", "left|right", "Side of its one flank; a wall on the other", &given->half},
            {"--ground", "X1,Y1,X2,Y2", "Line that the heap stands on", &given->ground},

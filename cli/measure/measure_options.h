@@ -41,6 +41,7 @@ struct MeasureArguments {
   std::string definition;
   std::vector<std::string> exclude;
   std::string heap;
+  std::string rotate;
   std::string half;
   std::string ground;
   std::vector<std::string> keep;

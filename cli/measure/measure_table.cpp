@@ -87,6 +87,9 @@ void add_measuring(const vision::MeasureOptions& told, Options& options) {
     options.add("--window", fmt::format("{:g},{:g}", told.window_from, told.window_to));
   }
   if (!base::is_usual_definition(told.definition)) options.add("--definition", told.definition);
+  if (told.hints.turn_deg != 0) {
+    options.add("--rotate", fmt::format("{}", told.hints.turn_deg));
+  }
   options.add_each("--exclude", told.excluded);
   if (told.hints.half) options.add("--half", name_of(*told.hints.half));
   options.add_each("--keep", told.hints.keep);
@@ -115,6 +118,7 @@ std::string proposal_text(const MeasuredPicture& picture) {
   add_measuring(picture.told.measuring, options);
   add_scale(picture.told.scale, options);
   add_frame_rate(picture, options);
+  if (proposal.turn_deg != 0) options.add("--rotate", fmt::format("{}", proposal.turn_deg));
   if (proposal.excluded) options.add("--exclude", value_of(*proposal.excluded));
   if (const auto& heap = proposal.heap ? proposal.heap : hints.heap) {
     options.add("--heap", value_of(*heap));
@@ -126,9 +130,10 @@ std::string proposal_text(const MeasuredPicture& picture) {
       fmt::format("repose measure {}{}", shell_word(picture.file), options.text());
   if (!proposal.angle_rad)
     return command + "  with your own corners of the heap and its ground line";
-  return fmt::format("{}  which gives {:.2f} ± {:.2f}; look at its overlay", command,
-                     to_degrees(*proposal.angle_rad),
-                     to_degrees(proposal.uncertainty_rad.value_or(0)));
+  return fmt::format(
+      "{}  which gives {:.2f} ± {:.2f}; {}", command, to_degrees(*proposal.angle_rad),
+      to_degrees(proposal.uncertainty_rad.value_or(0)),
+      proposal.turn_deg != 0 ? "does the picture lie on its side?" : "look at its overlay");
 }
 
 std::string degrees_cell(const std::optional<double>& angle_rad,

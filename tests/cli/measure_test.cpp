@@ -145,6 +145,24 @@ TEST_F(Measure, SavedHintsAreUsedAgainAndNamed) {
   EXPECT_THAT(run({"heap.png"}).out, HasSubstr("in heap.png.repose.toml: box around the heap"));
 }
 
+TEST_F(Measure, APictureThatLiesOnItsSideIsAskedAboutAndTurned) {
+  draw_heap_to("upright.png");
+  vision::write_picture(folder_.path() / "lying.png",
+                        vision::turned(vision::read_picture(folder_.path() / "upright.png"), 270));
+  EXPECT_THAT(run({"lying.png"}).out,
+              AllOf(HasSubstr("--rotate 90"), HasSubstr("picture lie on its side?")));
+  run({"lying.png", "--rotate", "90", "--save-hints"});
+  run({"lying.png", "upright.png", "--json", "both.json"});
+  const json both = json::parse(text("both.json"));
+  EXPECT_EQ(both.at(0).at("angle_deg"), both.at(1).at("angle_deg"));
+  EXPECT_EQ(both.at(0).at("hints").at("rotate_deg"), 90);
+  EXPECT_THAT(both.at(0).dump(), HasSubstr("turned clockwise by 90 degrees"));
+  // So it is by all others who read it.
+  EXPECT_THAT(run_repose(folder_, {"compare", "lying.png", "upright.png"}).out,
+              HasSubstr("difference"));
+  EXPECT_THAT(run({"lying.png", "--rotate", "45"}).err, HasSubstr("--rotate 45"));
+}
+
 TEST_F(Measure, HintsThatCannotBeReadAreSaid) {
   draw_heap_to("heap.png");
   const Finished typed = run(

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -72,6 +74,17 @@ TEST_F(FilmAngleOf, AHeapThatCameToRestIsThatOfItsLastSecond) {
   EXPECT_NEAR(film.stretch->to_s - film.stretch->from_s, 1, .15);
   EXPECT_EQ(film.film.frames, drawn.frames());
   EXPECT_NEAR(film.film.frames_per_s, drawn.frames_per_s, .01);
+}
+
+TEST_F(FilmAngleOf, AFilmThatLiesOnItsSideIsTurnedAsItIsRead) {
+  const DrawnHeapFilm drawn{.scene = small_heap(), .noise = 5};
+  std::vector<Picture> frames = drawn.pictures();
+  for (Picture& frame : frames) frame = turned(std::move(frame), 270);
+  const auto file = write(frames, drawn.frames_per_s);
+  EXPECT_FALSE(measure_film(file).heap.angle.angle_rad);
+  const FilmAngle film = measure_film({file, {}, {}, 90});
+  expect_heaps_angle(film, drawn);
+  EXPECT_EQ(film.picture.width, drawn.pictures().front().width);
 }
 
 TEST_F(FilmAngleAccuracy, ManyFramesAreNearerToTheTruthThanOneOfThem) {

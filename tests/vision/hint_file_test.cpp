@@ -53,6 +53,7 @@ TEST_F(HintFile, WithoutOneNothingChanges) {
 
 TEST_F(HintFile, WhatIsSavedIsReadAgain) {
   MeasureOptions options;
+  options.hints.turn_deg = 270;
   options.hints.heap = Box{.x = 1, .y = 2, .width = 30, .height = 40};
   options.hints.half = Side::right;
   options.hints.ground = Segment{{0, 41.5}, {31, 40}};
@@ -67,6 +68,7 @@ TEST_F(HintFile, WhatIsSavedIsReadAgain) {
     const MeasureOptions again = read(time == 0 ? MeasureOptions{} : options);
     EXPECT_EQ(again.hints.source, "heap.jpg.repose.toml");
     ASSERT_TRUE(again.hints.heap && again.hints.ground && again.camera_pitch_rad);
+    EXPECT_EQ(again.hints.turn_deg, 270);
     EXPECT_EQ(again.hints.heap->height, 40);
     EXPECT_EQ(again.hints.ground->from.y, 41.5);
     EXPECT_EQ(again.hints.half, Side::right);
@@ -75,7 +77,7 @@ TEST_F(HintFile, WhatIsSavedIsReadAgain) {
     EXPECT_THAT(again.hints.drop, SizeIs(1));
     EXPECT_THAT(again.excluded, SizeIs(1));
     EXPECT_NEAR(*again.camera_pitch_rad, 4 * kDegree, 1e-6);
-    EXPECT_EQ(again.hints.mask.width, 30);
+    EXPECT_EQ(again.hints.mask.width, 20) << "turned with the picture";
   }
 }
 
@@ -147,6 +149,7 @@ TEST_F(HintFile, AllThatIsWrongIsSaidAtOnce) {
   EXPECT_THAT(complaint("square_mm = 20\n"), HasSubstr("it needs board = true"));
   EXPECT_THAT(complaint("camera_file = \"none.toml\"\n"), HasSubstr("none.toml"));
   EXPECT_THAT(complaint("heap = [1, 2\n"), HasSubstr("must be TOML"));
+  EXPECT_THAT(complaint("rotate = 45\n"), HasSubstr("rotate: must be one of 90, 180, 270"));
   EXPECT_THAT(complaint("half = \"both\"\n"), HasSubstr("must be \"left\" or \"right\""));
   EXPECT_THAT(complaint("mask = \"nowhere.png\"\n"), HasSubstr("nowhere.png"));
 }

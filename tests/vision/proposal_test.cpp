@@ -45,6 +45,30 @@ TEST(Proposal, ABoxAroundAHeapReachesOverItsCrestEvenIfThatLiesInAShadow) {
   EXPECT_NEAR(*proposal->angle_rad / kDegree, kSilhouette_deg, 2);
 }
 
+/// The turn that sets a picture upright again is what undoes this.
+Picture lying(const Picture& upright, int turn_deg) { return turned(upright, 360 - turn_deg); }
+
+TEST(Proposal, APictureThatLiesOnItsSideIsToBeTurned) {
+  const auto heap = drawn("clean", 3, 600);
+  const std::optional<double> upright_rad = measure_repose_angle(heap.picture).angle_rad;
+  for (const int turn_deg : kTurns_deg) {
+    const Picture picture = lying(heap.picture, turn_deg);
+    ASSERT_EQ(measure_repose_angle(picture).status, MeasureStatus::refused) << turn_deg;
+    const auto proposal = propose_hint(picture, {});
+    ASSERT_TRUE(proposal) << turn_deg;
+    EXPECT_EQ(proposal->turn_deg, turn_deg);
+    EXPECT_EQ(proposal->angle_rad, upright_rad);
+    EXPECT_FALSE(proposal->heap);
+  }
+}
+
+TEST(Proposal, APictureInWhichAPersonHasMarkedSomethingIsNotTurned) {
+  MeasureOptions options;
+  options.hints.keep = {{300, 200}};
+  const auto proposal = propose_hint(lying(drawn("clean", 3, 600).picture, 90), options);
+  EXPECT_TRUE(!proposal || proposal->turn_deg == 0);
+}
+
 TEST(Proposal, NothingIsProposedWhereNothingIsSeen) {
   EXPECT_FALSE(propose_hint(picture_of(cv::Mat3b(300, 400, cv::Vec3b(90, 90, 90))), {}));
   EXPECT_FALSE(propose_hint(picture_of(cv::Mat3b(1, 1, cv::Vec3b(90, 90, 90))), {}));

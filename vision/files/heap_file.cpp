@@ -18,13 +18,18 @@ HeapInFile measure_heap_file(const std::filesystem::path& file, const PictureSet
     measured.heap.angle = measured.scan->angle;
     return measured;
   }
-  const auto [measuring, scale] = with_saved_hints(given, file);
-  if (has_film_ending(file)) {
-    FilmAngle film = measure_film(file, measuring, scale);
-    return {.heap = std::move(film.heap), .picture = std::move(film.picture), .is_film = true};
+  HeapInFile measured;
+  measured.told = with_saved_hints(given, file);
+  const auto& [measuring, scale] = measured.told;
+  measured.is_film = has_film_ending(file);
+  if (measured.is_film) {
+    FilmAngle film = measure_film({file, {}, {}, measuring.hints.turn_deg}, measuring, scale);
+    measured.heap = std::move(film.heap);
+    measured.picture = std::move(film.picture);
+  } else {
+    measured.picture = turned(read_picture(file), measuring.hints.turn_deg);
+    measured.heap = measure_sized_heap(measured.picture, measuring, scale);
   }
-  HeapInFile measured{.heap = {}, .picture = read_picture(file)};
-  measured.heap = measure_sized_heap(measured.picture, measuring, scale);
   return measured;
 }
 

@@ -14,10 +14,14 @@ namespace repose::vision {
 
 struct HeapInFile {
   SizedHeap heap;
-  Picture picture;       ///< as it was read; of a film the heap at rest, as in FilmAngle
-  bool is_film = false;  ///< by its name
+  Picture picture;  ///< as it was read, and turned; of a film the heap at rest, as in FilmAngle
+  PictureSettings told = {};  ///< with the hints that are kept beside it
+  bool is_film = false;       ///< by its name
   /// Of a three-dimensional scan, by its name; its angle is the heap's, and there is no picture.
   std::optional<ScannedHeap> scan = {};
+
+  /// The picture that was measured, in whose pixels the heap's outline is.
+  const Picture& measured() const { return heap.corrected.empty() ? picture : heap.corrected; }
 };
 
 /// Measures a photograph or a film, with the hints that are kept beside it, or a scan.

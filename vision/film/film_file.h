@@ -13,14 +13,16 @@ struct FilmFile {
   // NOLINTNEXTLINE(google-explicit-constructor): a place alone is a film too
   FilmFile(std::filesystem::path place) : path(std::move(place)) {}
   FilmFile(std::filesystem::path place, std::optional<double> rate,
-           const std::optional<Lens>& camera_lens = {})
-      : path(std::move(place)), frames_per_s(rate), lens(camera_lens) {}
+           const std::optional<Lens>& camera_lens = {}, int clockwise_deg = 0)
+      : path(std::move(place)), frames_per_s(rate), lens(camera_lens), turn_deg(clockwise_deg) {}
 
   std::filesystem::path path;
   /// Of a folder's pictures, which do not say it; files say it themselves.
   std::optional<double> frames_per_s = {};
   /// Whose distortion is taken out of each frame as it is read.
   std::optional<Lens> lens = {};
+  /// By how much each frame is turned as it is read, before that; of kTurns_deg, or 0.
+  int turn_deg = 0;
 };
 
 /// What a film is, whatever it shows.

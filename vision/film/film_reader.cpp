@@ -259,7 +259,7 @@ class FilmReader::FolderSource : public FilmReader::Source {
 };
 
 FilmReader::FilmReader(const FilmFile& file, std::vector<double> times_s)
-    : file_(file.path), times_s_(std::move(times_s)), lens_(file.lens) {
+    : file_(file.path), times_s_(std::move(times_s)), turn_deg_(file.turn_deg), lens_(file.lens) {
   keep_opencv_to_one_thread();
   std::error_code error;
   if (file.frames_per_s && fs::is_directory(file_, error)) {
@@ -288,8 +288,12 @@ bool FilmReader::next(FilmFrame& frame) {
   if (frame.bgr.size() != size_) {
     base::refuse(file_, "the size of its frames changes", "keep the part of one size.");
   }
+  if (turn_deg_ != 0) {
+    cv::swap(seen_, frame.bgr);
+    turn(seen_, turn_deg_, frame.bgr);
+  }
   if (!lens_) return true;
-  if (!correction_) correction_.emplace(lens_for(*lens_, size_.width, size_.height));
+  if (!correction_) correction_.emplace(lens_for(*lens_, frame.bgr.cols, frame.bgr.rows));
   cv::swap(seen_, frame.bgr);
   correction_->correct(seen_, frame.bgr);
   return true;

@@ -70,9 +70,10 @@ class FilmReader {
   std::size_t number_ = 0;  ///< of the next frame
   std::unique_ptr<Source> source_;
   cv::Size size_;
+  int turn_deg_ = 0;
   std::optional<Lens> lens_;
   std::optional<LensCorrection> correction_;  ///< from the first frame on
-  cv::Mat seen_;                              ///< a frame before it was corrected
+  cv::Mat seen_;                              ///< a frame before it was turned or corrected
 };
 
 }  // namespace repose::vision

@@ -62,6 +62,7 @@ class HintReader {
   std::optional<double> positive(const char* key);
   std::optional<bool> truth(const char* key);
   std::optional<Side> side(const char* key);
+  int turn_deg(const char* key);
   std::string file_name(const char* key);
 
   void refuse_other_keys(std::initializer_list<std::string_view> known);
@@ -131,6 +132,17 @@ std::optional<Side> HintReader::side(const char* key) {
   }
   add(*node, key, "", "must be \"left\" or \"right\"");
   return std::nullopt;
+}
+
+int HintReader::turn_deg(const char* key) {
+  const toml::node* node = table_.get(key);
+  if (node == nullptr) return 0;
+  for (const int turn : kTurns_deg) {
+    if (node->value<double>() == turn) return turn;
+  }
+  add(*node, key, "",
+      fmt::format("must be one of {}: degrees clockwise", fmt::join(kTurns_deg, ", ")));
+  return 0;
 }
 
 std::string HintReader::file_name(const char* key) {
@@ -326,19 +338,24 @@ fs::path hint_file_of(const fs::path& picture) {
   return file;
 }
 
-PictureSettings with_saved_hints(PictureSettings given, const fs::path& picture) {
+namespace {
+
+/// The settings with what the file beside the picture says.
+PictureSettings with_file(PictureSettings given, const fs::path& picture) {
   const fs::path file = hint_file_of(picture);
   constexpr std::uintmax_t kLargest_bytes = 1 << 20;
   const std::optional<std::string> text = base::read_file_if_there(file, kLargest_bytes);
   if (!text) return given;
   const toml::table table = parse_hints(*text, file);
   HintReader reader(table, file);
-  reader.refuse_other_keys({"heap", "half", "ground", "keep", "drop", "mask", "exclude",
+  reader.refuse_other_keys({"rotate", "heap", "half", "ground", "keep", "drop", "mask", "exclude",
                             "pitch_deg", "scale", "board", "square_mm", "board_behind_mm",
                             "camera_file"});
   MeasureOptions& options = given.measuring;
   Hints& hints = options.hints;
   if (changes_angles(table)) hints.source = file.filename().string();
+  const int turn_deg = reader.turn_deg("rotate");
+  if (hints.turn_deg == 0) hints.turn_deg = turn_deg;
   const auto heap = reader.numbers<4>("heap", kBox);
   if (heap && !hints.heap) hints.heap = box_of(*heap);
   const std::optional<Side> half = reader.side("half");
@@ -364,6 +381,15 @@ PictureSettings with_saved_hints(PictureSettings given, const fs::path& picture)
   return given;
 }
 
+}  // namespace
+
+PictureSettings with_saved_hints(PictureSettings given, const fs::path& picture) {
+  PictureSettings told = with_file(std::move(given), picture);
+  Hints& hints = told.measuring.hints;
+  hints.mask = turned(hints.mask, hints.turn_deg);
+  return told;
+}
+
 void save_hints(const PictureSettings& settings, const fs::path& picture) {
   const MeasureOptions& options = settings.measuring;
   const Hints& hints = options.hints;
@@ -372,6 +398,7 @@ void save_hints(const PictureSettings& settings, const fs::path& picture) {
   const auto add = [&](const char* key, const std::string& value) {
     text += fmt::format("{} = {}\n", key, value);
   };
+  if (hints.turn_deg != 0) add("rotate", fmt::format("{}", hints.turn_deg));
   if (hints.heap) add("heap", text_of(*hints.heap));
   if (hints.half) add("half", fmt::format("\"{}\"", name_of(*hints.half)));
   if (hints.ground) {

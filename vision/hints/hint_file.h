@@ -19,7 +19,7 @@ struct PictureSettings {
 };
 
 /// The settings with what the file beside the picture says: boxes and places are added to those
-/// given, all else is taken where nothing was given. Unchanged when there is no file.
+/// given, all else is taken where nothing was given. A mask is turned as the picture is to be.
 /// @throws base::InputError  "FILE:LINE: what. Rule: ... Fix: ..." for each error of the file.
 PictureSettings with_saved_hints(PictureSettings given, const std::filesystem::path& picture);
 

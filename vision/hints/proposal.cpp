@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <string_view>
 #include <vector>
 
 #include <opencv2/imgproc.hpp>
@@ -97,9 +99,9 @@ Box in_picture(const cv::Rect& box, const WorkingPicture& work, const Picture& p
           .height = std::min(picture.height, static_cast<int>(to.y)) - top};
 }
 
-bool is_crest_cut(const ReposeAngle& result) {
+bool has_warning(const ReposeAngle& result, std::string_view code) {
   return std::ranges::any_of(result.warnings,
-                             [](const Warning& warning) { return warning.code == "crest_cut"; });
+                             [&](const Warning& warning) { return warning.code == code; });
 }
 
 /// Upwards, as far as the picture goes.
@@ -110,30 +112,45 @@ Box twice_as_high(Box box) {
   return box;
 }
 
-/// Tries proposals until one gives an angle that needs no second look.
+/// Which of two results is to be believed, where both have an angle: one without a flag, then the
+/// one whose heap stands out more clearly for the width of its interval.
+struct Plausibility {
+  bool is_ok = false;
+  double clarity = 0;
+
+  static Plausibility of(const ReposeAngle& result) {
+    constexpr double kLeast_rad = 0.1 * kDegree;
+    return {
+        .is_ok = result.status == MeasureStatus::ok,
+        .clarity = result.confidence / std::max(kLeast_rad, result.uncertainty_rad.value_or(1))};
+  }
+  auto operator<=>(const Plausibility&) const = default;
+};
+
+/// Tries proposals, and keeps the most plausible one.
 class Trials {
  public:
   Trials(const Picture& picture, const MeasureOptions& options)
       : picture_(picture), options_(options) {}
 
-  bool is_settled() const { return best_status_ == MeasureStatus::ok; }
   const std::optional<Proposal>& best() const { return best_; }
 
   void attempt(Proposal proposal) {
-    if (is_settled()) return;
     ReposeAngle result = measured(proposal);
-    while (proposal.heap && proposal.heap->y > 0 && is_crest_cut(result)) {
+    while (proposal.heap && proposal.heap->y > 0 && has_warning(result, "crest_cut")) {
       // What was seen is the lower part of a heap whose top looks otherwise, as in a shadow.
       proposal.heap = twice_as_high(*proposal.heap);
       result = measured(proposal);
     }
-    const bool is_better =
-        result.status == MeasureStatus::ok || (result.status == MeasureStatus::flagged && !best_);
-    if (!is_better) return;
+    if (result.status == MeasureStatus::refused) return;
+    // Of a picture of anything some turn shows something that slopes.
+    if (proposal.turn_deg != 0 && has_warning(result, "unlike_a_heap")) return;
+    const Plausibility plausibility = Plausibility::of(result);
+    if (best_ && !(plausibility > best_plausibility_)) return;
     proposal.angle_rad = result.angle_rad;
     proposal.uncertainty_rad = result.uncertainty_rad;
     best_ = proposal;
-    best_status_ = result.status;
+    best_plausibility_ = plausibility;
   }
 
  private:
@@ -141,14 +158,20 @@ class Trials {
     MeasureOptions changed = options_;
     if (proposal.excluded) changed.excluded.push_back(*proposal.excluded);
     if (proposal.heap) changed.hints.heap = proposal.heap;
-    return measure_repose_angle(picture_, changed);
+    if (proposal.turn_deg == 0) return measure_repose_angle(picture_, changed);
+    return measure_repose_angle(turned(picture_, proposal.turn_deg), changed);
   }
 
   const Picture& picture_;
   const MeasureOptions& options_;
   std::optional<Proposal> best_;
-  MeasureStatus best_status_ = MeasureStatus::refused;
+  Plausibility best_plausibility_;
 };
+
+/// Whether positions or a lens would have to be turned with the picture.
+bool may_be_turned(const MeasureOptions& options) {
+  return options.hints.empty() && options.excluded.empty() && !options.pinhole;
+}
 
 Proposal guess_around(const Box& box) {
   const double level = box.y + box.height / (1 + 2 * kMargin) * (1 + kMargin);
@@ -170,11 +193,17 @@ std::optional<Proposal> propose_hint(const Picture& picture, const MeasureOption
     proposal.excluded = in_picture(label, work, picture);
     trials.attempt(proposal);
   }
-  if (options.hints.heap || trials.is_settled()) return trials.best();
+  if (options.hints.heap) return trials.best();
   const std::vector<cv::Rect> things = things_in(work);
   for (const cv::Rect& thing : things) {
     Proposal proposal;
     proposal.heap = in_picture(thing, work, picture);
+    trials.attempt(proposal);
+  }
+  for (const int turn_deg : kTurns_deg) {
+    if (!may_be_turned(options)) break;
+    Proposal proposal;
+    proposal.turn_deg = turn_deg;
     trials.attempt(proposal);
   }
   if (trials.best() || things.empty()) return trials.best();

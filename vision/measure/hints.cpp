@@ -76,11 +76,12 @@ std::string count_of(std::size_t places, const char* where) {
 }  // namespace
 
 bool Hints::empty() const {
-  return !heap && !half && !ground && keep.empty() && drop.empty() && mask.empty();
+  return turn_deg == 0 && !heap && !half && !ground && keep.empty() && drop.empty() && mask.empty();
 }
 
 std::string Hints::text() const {
   std::vector<std::string> parts;
+  if (turn_deg != 0) parts.push_back(fmt::format("turned clockwise by {} degrees", turn_deg));
   if (heap) parts.emplace_back("box around the heap");
   if (half) parts.push_back(fmt::format("half a heap, with its {} flank", name_of(*half)));
   if (ground) parts.emplace_back("ground line");
@@ -107,7 +108,8 @@ std::vector<base::Fault> problems_of(const Hints& hints, int width, int height) 
 }
 
 Hints hints_within(const Hints& hints, const Box& box) {
-  Hints inside{.heap = {},
+  Hints inside{.turn_deg = hints.turn_deg,
+               .heap = {},
                .half = hints.half,
                .ground = hints.ground,
                .keep = moved(hints.keep, box),

@@ -324,8 +324,8 @@ double least_roughness(const HeapPlausibility& likeness, std::optional<double> g
 std::string reason_of_shape(const HeapPlausibility& likeness) {
   if (likeness.filled < kMinFilled) {
     return fmt::format(
-        "{:.0f} % of the area under its edge does not belong to it, as with legs, "
-        "wheels and branches",
+        "{:.0f} % of the area under its edge does not belong to it, as with a hand, legs, wheels "
+        "and branches",
         100 * (1 - likeness.filled));
   }
   if (likeness.climb > kMaxClimb) {
@@ -340,12 +340,16 @@ std::string reason_of_shape(const HeapPlausibility& likeness) {
 
 std::string reason_of_texture(const BodyTexture& inside, bool has_grains) {
   if (inside.straight > kLongestStraight) {
-    return fmt::format("it has a straight edge inside, {:.1f} times as long as it is high",
-                       inside.straight);
+    return fmt::format(
+        "it has a straight edge inside, {:.1f} times as long as it is high, as of "
+        "a ruler, an arm or a box",
+        inside.straight);
   }
   if (inside.patchy > kMaxPatchy) {
-    return fmt::format("it has parts of different colours ({:.0f} % of it lies between them)",
-                       100 * inside.patchy);
+    return fmt::format(
+        "it has parts of different colours ({:.0f} % of it lies between them), as "
+        "with a hand or a ruler at its side",
+        100 * inside.patchy);
   }
   if (inside.is_silhouette()) return {};
   if (inside.aligned > kMaxAligned || inside.crossed > kMaxCrossed) {

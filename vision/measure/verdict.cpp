@@ -266,8 +266,9 @@ void warn_of_likeness(ReposeAngle& result, const SelectedCandidate& choice,
   const std::string reason = reason_to_doubt(choice, options);
   if (reason.empty()) return;
   flag(result, "unlike_a_heap",
-       fmt::format("This may not be a heap: {}. If it is one, mark it with a {}.", reason,
-                   base::field("heap box")));
+       fmt::format("This may not be a heap, or not a heap alone: {}. If it is one, mark it with a "
+                   "{} that leaves hands and rulers out.",
+                   reason, base::field("heap box")));
   result.confidence = std::min(result.confidence, kMaxOfUnlike);
 }
 

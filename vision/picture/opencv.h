@@ -25,6 +25,9 @@ inline cv::Mat mat_of(const Picture& picture) {
                  const_cast<std::uint8_t*>(picture.bgr.data()));
 }
 
+/// Turned clockwise by a multiple of a right angle [deg].
+void turn(const cv::Mat& picture, int clockwise_deg, cv::Mat& turned);
+
 /// Keeps OpenCV to the thread that calls it, from the first call on: pictures and films are worked
 /// on side by side, and as many as there are cores gain nothing from threads inside OpenCV. (A film
 /// alone would: a drop takes .7 s in place of .6.) While one of those waits it may start on another

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -130,6 +131,16 @@ std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality) {
         {.value = "a picture without pixels cannot be written", .fix = "give one."});
   }
   return encode_jpeg(picture, quality);
+}
+
+Picture turned(Picture picture, int clockwise_deg) {
+  if (picture.empty() || clockwise_deg == 0) return picture;
+  const bool is_on_its_side = clockwise_deg != 180;
+  Picture upright = is_on_its_side ? blank_picture(picture.height, picture.width)
+                                   : blank_picture(picture.width, picture.height);
+  cv::Mat target = mat_of(upright);
+  turn(mat_of(std::as_const(picture)), clockwise_deg, target);
+  return upright;
 }
 
 Picture reduced(const Picture& picture, int longest_side_px) {

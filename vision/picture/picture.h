@@ -57,6 +57,9 @@ void write_picture(const std::filesystem::path& file, const Picture& picture);
 /// @throws base::InputError  the picture has no pixels.
 std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality);
 
+/// The picture turned clockwise by a multiple of a right angle [deg].
+Picture turned(Picture picture, int clockwise_deg);
+
 /// The picture made smaller until no side is longer than that [px]; smaller ones stay as they are.
 Picture reduced(const Picture& picture, int longest_side_px);
 
