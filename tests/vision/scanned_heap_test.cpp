@@ -277,6 +277,52 @@ TEST(ScannedHeap, ADiscAsWideAsTheHeapIsFlaggedAsAStep) {
   EXPECT_THAT(on_disc(0).angle.warnings, ::testing::Not(scan_warns("step_at_foot")));
 }
 
+/// A cone with the ground around it up to `width` times its foot raised.
+ScannedHeap on_ledge(double width, double height_mm, double aside_mm = 0) {
+  return measured_scan(sampled(330, 1.5, [&](double x, double y) {
+    return cone_at(x, y) + (std::hypot(x - aside_mm, y) < width * kConeFoot ? height_mm : 0);
+  }));
+}
+
+TEST(ScannedHeap, ADiscWiderThanTheHeapIsFlagged) {
+  for (const auto& [width, height_mm, aside_mm] :
+       {std::array{1.15, 3., 0.}, {1.15, 10., 0.}, {1.4, 6., 0.}, {1.4, 12., 0.}, {1.3, 8., 8.}}) {
+    const ScannedHeap heap = on_ledge(width, height_mm, aside_mm);
+    ASSERT_NE(heap.angle.status, MeasureStatus::refused) << heap.angle.reason;
+    const bool is_seen_through =
+        heap.volume_ml && std::abs(heap.volume_ml->value - kConeVolume_ml) <
+                              heap.volume_ml->uncertainty + .01 * kConeVolume_ml;
+    if (is_seen_through) continue;  // it was taken for the ground
+    EXPECT_THAT(heap.angle.warnings, scan_warns("ledge_at_foot")) << width << ' ' << height_mm;
+    EXPECT_EQ(heap.angle.status, MeasureStatus::flagged);
+  }
+}
+
+TEST(ScannedHeap, AHollowThatTheHeapStandsInIsFlagged) {
+  const ScannedHeap heap = on_ledge(1.15, -6);
+  EXPECT_THAT(heap.angle.warnings, scan_warns("ledge_at_foot"));
+  EXPECT_EQ(heap.angle.status, MeasureStatus::flagged);
+}
+
+TEST(ScannedHeap, ToesThatFallAwayGraduallyAreNoLedges) {
+  const ScannedHeap hollow = measured_scan(
+      sampled(400, 2, [](double x, double y) { return 80 * std::exp(-std::hypot(x, y) / 70); }));
+  EXPECT_THAT(hollow.angle.warnings, ::testing::Not(scan_warns("ledge_at_foot")));
+  EXPECT_THAT(on_ledge(1, 0).angle.warnings, ::testing::Not(scan_warns("ledge_at_foot")));
+}
+
+TEST(ScannedHeap, MetresThatAreSaidToBeMillimetresAreFlagged) {
+  Scan scan;
+  for (base::Corner at : drawn_scan(cone_draft())) {
+    for (double& part : at) part /= 1000;
+    scan.points.push_back(at);
+  }
+  const ScannedHeap heap = measure_scan(scan, {.unit_mm = 1});
+  EXPECT_THAT(heap.angle.warnings, scan_warns("unlikely_size"));
+  EXPECT_THAT(measure_scan(scan, {.unit_mm = 1000}).angle.warnings,
+              ::testing::Not(scan_warns("unlikely_size")));
+}
+
 // The floor has more points than the table and is taken for the ground: the highest part of that
 // body is a plateau.
 TEST(ScannedHeap, AHeapOnASmallTableFarAboveTheFloorIsRefused) {

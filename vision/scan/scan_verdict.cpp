@@ -154,6 +154,33 @@ void warn_of_step(const Slices& slices, ScannedHeap& heap) {
                   100 * (1 - reach / run), base::field("ground plane")));
 }
 
+/// A disc wider than the heap, or a hollow that it stands in.
+void warn_of_ledge(std::optional<double> ledge, ScannedHeap& heap) {
+  if (!ledge) return;
+  add_flag(
+      heap, "ledge_at_foot",
+      fmt::format(
+          "Around the foot lies a level ledge, {:.0f} % of the heap's height {} the ground, as "
+          "of {}, so that volume, height and base are not the heap's: give three points of "
+          "what it stands on as {}.",
+          100 * std::abs(*ledge), *ledge > 0 ? "above" : "below",
+          *ledge > 0 ? "a disc or a tray that it stands on" : "a hollow that it stands in",
+          base::field("ground plane")));
+}
+
+/// Sizes that no heap has that anybody scans: the unit is another.
+void warn_of_size(ScannedHeap& heap) {
+  constexpr double kSmallest_mm = 1, kLargest_mm = 200e3;  // across
+  if (!heap.base_mm) return;
+  const double base_mm = heap.base_mm->value;
+  if (base_mm >= kSmallest_mm && base_mm <= kLargest_mm) return;
+  add_flag(
+      heap, "unlikely_size",
+      fmt::format("The heap's base is {:.3g} mm across. If it is not, the file has another unit "
+                  "({}, say): correct the {}.",
+                  base_mm, base_mm < kSmallest_mm ? "metres" : "millimetres", base::field("unit")));
+}
+
 void warn_of_definitions(double bend_rad, ScannedHeap& heap) {
   const double angle = *heap.angle.angle_rad, interval = *heap.angle.uncertainty_rad;
   double low = angle, high = angle;
@@ -200,9 +227,12 @@ std::optional<std::string> reason_against(const Slices& slices, const ScannedHea
   return shape_reason(slices);
 }
 
-void warn_of_scan(const Slices& slices, int others, ScannedHeap& heap) {
+void warn_of_scan(const Slices& slices, int others, std::optional<double> ledge,
+                  ScannedHeap& heap) {
   warn_of_what_was_seen(slices, others, heap);
   warn_of_step(slices, heap);
+  warn_of_ledge(ledge, heap);
+  warn_of_size(heap);
   const double bend = slices.mean_of([](const FlankFit& fit) { return fit.bend_rad; });
   const double apron = slices.mean_of([](const FlankFit& fit) { return fit.apron_rad; });
   constexpr double kSeenApron_rad = 0.1 * kDegree;

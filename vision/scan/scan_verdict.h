@@ -20,6 +20,7 @@ std::optional<std::string> reason_against(const Slices& slices, const ScannedHea
 
 /// Adds what a person should know or must look at. `heap` has its angle and interval.
 /// @param others  smaller bodies on the ground beside it
-void warn_of_scan(const Slices& slices, int others, ScannedHeap& heap);
+/// @param ledge   its height around the foot, of the heap's; none: there is none
+void warn_of_scan(const Slices& slices, int others, std::optional<double> ledge, ScannedHeap& heap);
 
 }  // namespace repose::vision

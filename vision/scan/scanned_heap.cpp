@@ -345,7 +345,9 @@ ScannedHeap measured_on(const std::vector<Eigen::Vector3d>& points, const HeapSe
   result.map.with_toe = dilated(survey.heap.map, survey.heap.base,
                                 static_cast<int>(std::ceil(toe / survey.heap.map.plan.cell)));
   add_sizes(survey, volume_of(survey, *angle.angle_rad), *angle.angle_rad, result);
-  warn_of_scan(slices, search.heap->others, result);
+  std::optional<double> ledge = ledge_around(survey);
+  if (ledge) *ledge /= survey.heap.height;
+  warn_of_scan(slices, search.heap->others, ledge, result);
   return result;
 }
 

@@ -157,4 +157,68 @@ bool survey_heap(const std::vector<Eigen::Vector3d>& points, const FoundHeap& fo
   return true;
 }
 
+namespace {
+
+constexpr double kRing = 1.0 / 30;  // of the base's radius
+
+/// What is seen at one distance from the axis.
+struct Ring {
+  double level = 0;   ///< median height; 0 where too little is seen
+  double spread = 0;  ///< robust standard deviation
+};
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// From the axis to the map's edge, but for what only its corners have.
+std::vector<Ring> rings_around(const Survey& survey) {
+  constexpr std::size_t kFewest = 24;  // cells
+  constexpr double kSdPerMad = 1.4826;
+  const HeightMap& map = survey.heap.map;
+  const double width = kRing * survey.base_radius();
+  const double farthest = map.plan.cell * map.side() / 2;
+  std::vector<std::vector<double>> heights(static_cast<std::size_t>(farthest / width));
+  for (std::size_t k = 0; k < map.height.size(); ++k) {
+    if (map.kind[k] != CellKind::seen) continue;
+    const auto ring = static_cast<std::size_t>((map.middle(k) - survey.heap.axis).norm() / width);
+    if (ring < heights.size()) heights[ring].push_back(map.height[k]);
+  }
+  std::vector<Ring> rings;
+  for (std::vector<double>& ring : heights) {
+    rings.emplace_back();
+    if (ring.size() < kFewest) continue;
+    rings.back().level = median_of(ring);
+    for (double& height : ring) height = std::abs(height - rings.back().level);
+    rings.back().spread = kSdPerMad * median_of(ring);
+  }
+  return rings;
+}
+
+}  // namespace
+
+std::optional<double> ledge_around(const Survey& survey) {
+  constexpr double kLowest = 0.02, kHighest = 0.5;  // of the heap's height
+  constexpr double kSteepest = 0.05, kEven = 0.15, kFallen = 0.4;
+  constexpr std::size_t kLevelRings = 2, kStepRings = 3;
+  const double noise = 3 * survey.plane.noise;
+  const double rise = kSteepest * kRing * survey.base_radius() + survey.plane.noise;
+  const std::vector<Ring> rings = rings_around(survey);
+  std::size_t run = 0;  // rings up to this one that are a ledge
+  for (std::size_t k = 1; k + kStepRings < rings.size(); ++k) {
+    const auto& [level, spread] = rings[k];
+    const double height = std::abs(level);
+    const bool is_ledge = height > std::max(noise, kLowest * survey.heap.height) &&
+                          height < kHighest * survey.heap.height &&
+                          spread < kEven * height + survey.plane.noise &&
+                          std::abs(level - rings[k - 1].level) < rise;
+    run = is_ledge ? run + 1 : 0;
+    const double beyond = std::abs(rings[k + kStepRings].level);
+    if (run >= kLevelRings && beyond < kFallen * height) return level;
+  }
+  return std::nullopt;
+}
+
 }  // namespace repose::vision

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,14 @@ struct Survey {
   /// Of the circle as large as the base.
   double base_radius() const;
 };
+
+/// Height above the ground of a level ledge around the heap's foot that ends in a step, as of a
+/// disc that it stands on; below 0: it stands in a hollow. None: its foot is on the ground. Rings
+/// of cells around the axis are level and even (0.15 of the ledge's height, beside the noise) over
+/// a fifteenth of the base's radius or more and then, within a tenth, at most 0.4 as high: toes and
+/// aprons of grains are rougher, or fall away gradually.
+/// Proved by ScannedHeap.ADisc* and ScannedHeap.AHollow* in tests/vision/scanned_heap_test.cpp.
+std::optional<double> ledge_around(const Survey& survey);
 
 /// Cells of a map on which the heap has up to 240, and no more than its points are enough for.
 MapPlan plan_around(const FoundHeap& found);
