@@ -239,6 +239,7 @@ ReportedStudy reported(const StudyResult& result, const std::vector<PictureReadi
                       .result = result,
                       .heading = {},
                       .runs = {},
+                      .made = {},
                       .measured = {},
                       .pictures = pictures,
                       .heap = heap};
