@@ -1,10 +1,16 @@
 #include "base/child_process.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <iterator>
+#include <set>
+#include <string_view>
 #include <system_error>
 
 #include <fcntl.h>
@@ -48,15 +54,61 @@ void require_spawned(int error) {
   if (error != 0) throw std::system_error(error, std::generic_category());
 }
 
-pid_t spawn(const ProcessStart& start, int output) {
+constexpr const char* kMarkVariable = "REPOSE_STARTED=";
+
+/// None of any other process, nor of any time.
+std::string new_mark() {
+  static std::atomic<int> count = 0;
+  return fmt::format("{}.{}.{}", ::getpid(), ++count,
+                     std::chrono::steady_clock::now().time_since_epoch().count());
+}
+
+/// This process's environment, with the mark behind those that it has itself.
+std::vector<std::string> marked_environment(const std::string& mark) {
+  std::vector<std::string> all;
+  std::string marks = kMarkVariable;
+  for (char** one = ::environ; one != nullptr && *one != nullptr; ++one) {
+    if (std::string_view(*one).starts_with(kMarkVariable)) {
+      marks = std::string(*one) + ' ';
+    } else {
+      all.emplace_back(*one);
+    }
+  }
+  all.push_back(marks + mark);
+  return all;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Processes in whose environment the mark is, and that may be read.
+std::set<pid_t> marked_processes(const std::string& mark) {
+  std::set<pid_t> found;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry("/proc", error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    pid_t pid = 0;
+    const auto [stopped_at, fault] = std::from_chars(name.data(), name.data() + name.size(), pid);
+    if (fault != std::errc{} || stopped_at != name.data() + name.size()) continue;
+    std::ifstream file(entry->path() / "environ", std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    if (text.find(mark) != std::string::npos) found.insert(pid);
+  }
+  return found;
+}
+
+pid_t spawn(const ProcessStart& start, int output, const std::string& mark) {
   posix_spawn_file_actions_t actions{};
   posix_spawnattr_t attributes{};
   require_spawned(::posix_spawn_file_actions_init(&actions));
   require_spawned(::posix_spawnattr_init(&attributes));
-  std::vector<std::string> copies = start.words;
-  std::vector<char*> words;
-  for (std::string& copy : copies) words.push_back(copy.data());
-  words.push_back(nullptr);
+  std::vector<std::string> copies = start.words, variables = marked_environment(mark);
+  const std::vector<char*> words = pointers_to(copies), environment = pointers_to(variables);
   pid_t pid = 0;
   int error = ::posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   if (error == 0) error = ::posix_spawn_file_actions_adddup2(&actions, output, 1);
@@ -65,7 +117,8 @@ pid_t spawn(const ProcessStart& start, int output) {
   if (error == 0) error = ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   if (error == 0) error = ::posix_spawnattr_setpgroup(&attributes, 0);  // a new one
   if (error == 0) {
-    error = ::posix_spawnp(&pid, words.front(), &actions, &attributes, words.data(), ::environ);
+    error = ::posix_spawnp(&pid, words.front(), &actions, &attributes, words.data(),
+                           environment.data());
   }
   ::posix_spawnattr_destroy(&attributes);
   ::posix_spawn_file_actions_destroy(&actions);
@@ -83,7 +136,7 @@ std::string ProcessEnd::text() const {
   return fmt::format("exit code {}", exit_code);
 }
 
-ChildProcess::ChildProcess(const ProcessStart& start) {
+ChildProcess::ChildProcess(const ProcessStart& start) : mark_(new_mark()) {
   const OutputHandle output(start.output, O_WRONLY | O_CREAT | O_APPEND);
   if (output.number() < 0) {
     refuse(start.output,
@@ -95,7 +148,7 @@ ChildProcess::ChildProcess(const ProcessStart& start) {
            "wait until it has ended, or end it.");
   }
   if (::ftruncate(output.number(), 0) != 0) require_spawned(errno);
-  pid_ = spawn(start, output.number());
+  pid_ = spawn(start, output.number(), mark_);
 }
 
 ChildProcess::~ChildProcess() {
@@ -120,9 +173,25 @@ std::optional<ProcessEnd> ChildProcess::end() {
   return end_;
 }
 
-void ChildProcess::ask_to_end() const { ::kill(-pid_, SIGTERM); }
+void ChildProcess::ask_to_end() const { signal_all(SIGTERM); }
 
-void ChildProcess::kill() const { ::kill(-pid_, SIGKILL); }
+void ChildProcess::kill() const { signal_all(SIGKILL); }
+
+void ChildProcess::signal_all(int signal) const {
+  constexpr int kPasses = 5;  // for those that are started meanwhile
+  ::kill(-pid_, signal);
+  std::set<pid_t> told;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    bool is_new = false;
+    for (const pid_t one : marked_processes(mark_)) {
+      // The group has been told.
+      if (!told.insert(one).second || ::getpgid(one) == pid_) continue;
+      ::kill(one, signal);
+      is_new = true;
+    }
+    if (!is_new) return;
+  }
+}
 
 bool is_in_use(const std::filesystem::path& output) {
   const OutputHandle file(output, O_RDONLY);

@@ -28,8 +28,9 @@ struct ProcessEnd {
   std::string text() const;
 };
 
-/// A program beside this one, with nothing on its standard input. It and what it starts are a
-/// process group: Ctrl-C in the terminal does not reach it, and all of it ends with the object. Its
+/// A program beside this one, with nothing on its standard input. It is a process group: Ctrl-C in
+/// the terminal does not reach it. All that it started ends with the object: its group, and
+/// whatever has made a group or session of its own and kept the environment, which marks it. Its
 /// output file stays locked (flock) as long as any of them has it open, even if this program is
 /// killed.
 class ChildProcess {
@@ -46,10 +47,13 @@ class ChildProcess {
   /// Does not wait: none while it runs. What it left running behind it is killed.
   std::optional<ProcessEnd> end();
 
-  void ask_to_end() const;  ///< SIGTERM to the group
+  void ask_to_end() const;  ///< SIGTERM to all of it
   void kill() const;        ///< SIGKILL
 
  private:
+  void signal_all(int signal) const;
+
+  std::string mark_;
   pid_t pid_ = 0;
   std::optional<ProcessEnd> end_;
 };

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
+#include <regex>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <wordexp.h>
 
 #include "base/atomic_file.h"
 #include "base/fingerprint.h"
@@ -51,19 +54,57 @@ Json json_of(const dem::ConfigValue& value) {
   return nullptr;
 }
 
+/// The words of a command as its shell parts them, with their quotes: at blanks and operators that
+/// are not quoted (POSIX.1-2017, XCU 2.2 and 2.3).
+std::vector<std::string> quoted_words_of(const std::string& command) {
+  std::vector<std::string> words(1);
+  char quote = 0;
+  for (std::size_t k = 0; k < command.size(); ++k) {
+    const char letter = command[k];
+    if (letter == '\\' && quote != '\'' && k + 1 < command.size()) {
+      words.back() += letter;
+      words.back() += command[++k];
+      continue;
+    }
+    if (quote == 0 && std::string_view(" \t\n;&|<>()").find(letter) != std::string_view::npos) {
+      words.emplace_back();
+      continue;
+    }
+    if (letter == quote) {
+      quote = 0;
+    } else if (quote == 0 && (letter == '\'' || letter == '"')) {
+      quote = letter;
+    }
+    words.back() += letter;
+  }
+  return words;
+}
+
+/// What the shell makes of such a word: variables and patterns expanded, without quotes. Commands
+/// in it are not run.
+std::vector<std::string> expanded(const std::string& word) {
+  wordexp_t found{};
+  std::vector<std::string> words;
+  if (::wordexp(word.c_str(), &found, WRDE_NOCMD) == 0) {
+    words.assign(found.we_wordv, found.we_wordv + found.we_wordc);
+    ::wordfree(&found);
+  }
+  return words;
+}
+
 /// Files of the study's folder that the command names, with what is in them: a script that was
 /// changed makes other runs.
 Json files_of(const std::string& command, const fs::path& folder) {
   Json files = Json::object();
-  std::istringstream words(command);
-  for (std::string word; words >> word;) {
-    std::erase_if(word, [](char letter) { return letter == '"' || letter == '\''; });
-    std::error_code ignored;
-    if (word.empty() || !fs::is_regular_file(folder / word, ignored)) continue;
-    try {
-      files[word] = base::fingerprint({base::read_whole_file(folder / word)});
-    } catch (const base::InputError&) {
-      continue;  // cannot be read; whether that matters, the command will say
+  for (const std::string& quoted : quoted_words_of(command)) {
+    for (const std::string& word : expanded(quoted)) {
+      std::error_code ignored;
+      if (word.empty() || !fs::is_regular_file(folder / word, ignored)) continue;
+      try {
+        files[word] = base::fingerprint({base::read_whole_file(folder / word)});
+      } catch (const base::InputError&) {
+        continue;  // cannot be read; whether that matters, the command will say
+      }
     }
   }
   return files;
@@ -133,11 +174,11 @@ class CommandEngine : public Engine {
       return {.readings = {}, .failure = error.what()};
     }
     if (!text) return failed("left no reading.json");
-    const Json json = Json::parse(*text, nullptr, false);
-    if (json.is_discarded()) {
-      return failed(text->find("NaN") != std::string::npos
-                        ? "its reading.json is no JSON, which has no NaN: write null, or \"failed\""
-                        : "its reading.json is no JSON");
+    std::string twice;
+    const Json json = parsed(*text, twice);
+    if (json.is_discarded()) return failed("its reading.json is no JSON" + slip_in(*text));
+    if (!twice.empty()) {
+      return failed(fmt::format("its reading.json has {} twice: leave one out", twice));
     }
     if (!json.is_object()) return failed("its reading.json is no object, as in {\"aor\": 27.3}");
     if (std::string why = failure_in(json); !why.empty()) return failed(std::move(why));
@@ -156,6 +197,31 @@ class CommandEngine : public Engine {
   }
 
  private:
+  /// @param twice  a name that the object has twice
+  static Json parsed(const std::string& text, std::string& twice) {
+    std::set<std::string> names;
+    const auto note = [&](int depth, Json::parse_event_t event, const Json& key) {
+      if (depth == 1 && event == Json::parse_event_t::key &&
+          !names.insert(key.get<std::string>()).second) {
+        twice = key.get<std::string>();
+      }
+      return true;
+    };
+    return Json::parse(text, note, false);
+  }
+
+  /// What often makes a text no JSON.
+  static std::string slip_in(const std::string& text) {
+    if (text.find("NaN") != std::string::npos) {
+      return ", which has no NaN: write null, or \"failed\"";
+    }
+    static const std::regex kDecimalComma(":\\s*(-?[0-9]+),([0-9]+)");
+    std::smatch found;
+    if (!std::regex_search(text, found, kDecimalComma)) return {};
+    return fmt::format(", whose numbers have a decimal point: write {}.{}", found[1].str(),
+                       found[2].str());
+  }
+
   static EngineOutcome failed(std::string why) {
     return {.readings = {}, .failure = std::move(why)};
   }
@@ -211,10 +277,31 @@ class CommandEngine : public Engine {
       outcome.readings.push_back({.column = name, .cell = word});
       return {};
     }
+    if (std::string why = fault_of_file(name, word, folder); !why.empty()) return why;
+    outcome.readings.push_back({.column = name, .cell = word, .is_file = true});
+    return {};
+  }
+
+  /// @return  why a reading cannot be the file that it names
+  std::string fault_of_file(const std::string& name, const std::string& word,
+                            const fs::path& folder) const {
+    if (const auto number = number_of(word)) {
+      return fmt::format("{} is \"{}\", a number as text{}: write {}", name, word,
+                         word.find(',') == std::string::npos ? "" : " with a decimal comma",
+                         cell_of(*number));
+    }
+    const fs::path inside = fs::path(word).lexically_normal();
+    if (inside.is_absolute() || (!inside.empty() && *inside.begin() == "..")) {
+      return fmt::format("{} names {}, which is not in the run's folder: put a copy there", name,
+                         word);
+    }
     std::error_code ignored;
     if (word.empty() || !fs::is_regular_file(folder / word, ignored)) {
       return fmt::format("{} names {}, which is no file in the run's folder", name,
                          word.empty() ? "nothing" : word);
+    }
+    if (fs::file_size(folder / word, ignored) == 0) {
+      return fmt::format("{} names {}, which is empty", name, word);
     }
     if (!study_.pictured.contains(name)) {
       return fmt::format(
@@ -222,7 +309,6 @@ class CommandEngine : public Engine {
           "heap's angle, unit = \"deg\" in the study",
           name, word);
     }
-    outcome.readings.push_back({.column = name, .cell = word, .is_file = true});
     return {};
   }
 

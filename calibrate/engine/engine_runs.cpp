@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
@@ -84,6 +85,28 @@ EngineRuns::EngineRuns(const TableStudy& study, const fs::path& folder)
                  "another folder with --out.");
   }
   name_rows();
+  refuse_other_parameters();
+}
+
+/// Runs of more parameters than the study has: what they had for those that are gone, a fit would
+/// take for chance.
+void EngineRuns::refuse_other_parameters() const {
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    const auto text = base::read_file_if_there(folder_of(row) / kRunFile);
+    if (!text) continue;
+    const auto run = nlohmann::json::parse(*text, nullptr, false);
+    if (!run.is_object() || !run.contains("parameters") || !run["parameters"].is_object()) continue;
+    for (const auto& [name, value] : run["parameters"].items()) {
+      if (std::ranges::find(study_.parameters, name, &Parameter::name) != study_.parameters.end()) {
+        continue;
+      }
+      base::refuse(file_,
+                   fmt::format("its runs were made for another study: they have a parameter {}, "
+                               "which [parameter] has not",
+                               name),
+                   "another folder with --out; or put the parameter back.");
+    }
+  }
 }
 
 std::string& EngineRuns::cell(std::size_t row, const std::string& column) {

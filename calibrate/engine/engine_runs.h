@@ -20,7 +20,9 @@ namespace repose::calibrate {
 /// tests/calibrate.
 class EngineRuns {
  public:
-  /// @throws base::InputError  there is a table that lacks a parameter or a reading of the study.
+  /// @throws base::InputError  there is a table that lacks a parameter or a reading of the study,
+  /// or
+  ///   whose runs have a parameter that the study has not.
   EngineRuns(const TableStudy& study, const std::filesystem::path& folder);
 
   const std::filesystem::path& file() const { return file_; }
@@ -54,6 +56,7 @@ class EngineRuns {
   const std::string& cell(std::size_t row, const std::string& column) const;
   void add_column(const std::string& name);
   void name_rows();
+  void refuse_other_parameters() const;
   bool is_made(std::size_t row) const;
   bool has_reading(std::size_t row) const;
   bool is_within_bounds(std::size_t row) const;

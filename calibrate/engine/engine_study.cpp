@@ -27,6 +27,8 @@ namespace fs = std::filesystem;
 
 /// Runs of a round are asked for together: many at once keep many jobs busy, few are chosen better.
 constexpr std::size_t kRound = 8;
+/// What the table of runs is called, whatever the folder is: a result is the same in any.
+constexpr const char* kRunsInFolder = "runs/runs.csv";
 /// If none of so many first ones gives a reading, none will.
 constexpr std::size_t kFirst = 3;
 
@@ -94,6 +96,12 @@ class EngineStudy {
     return next;
   }
 
+  /// Where runs are likely to fail, by all that were made: NextRuns::left_out.
+  std::string left_out() {
+    if (runs_.failed() == 0) return {};
+    return next_runs(study_, read_table_runs(study_, tables(), NoRows::allowed), kRound).left_out;
+  }
+
   /// Rows for the runs that ask() has returned.
   std::vector<std::size_t> rows_for(const NextRuns& next) {
     if (asked_) runs_.plan(*std::exchange(asked_, std::nullopt), next.runs);
@@ -132,7 +140,7 @@ void note_other_engines(EngineStudy& of, const Engine& engine, std::vector<std::
       "The command, a file that it names, or the settings have changed since {} of the runs were "
       "made (the first: {}); they count as runs of the same model. If they are not, choose another "
       "folder with --out, or delete their rows in {}.",
-      others.size(), others.front(), of.runs().file().string()));
+      others.size(), others.front(), kRunsInFolder));
 }
 
 /// Makes runs until there are enough.
@@ -166,10 +174,7 @@ class Rounds {
       const auto failed = make(rows);
       if (!failed) return false;
       if (*failed == rows.size()) {
-        facts_.ended_by = "failures";
-        notes_.push_back(
-            fmt::format("No more runs were made: all {} of the last ones failed. See why in {}.",
-                        rows.size(), of_.runs().folder().string()));
+        end_with_failures(rows.size());
         return true;
       }
     }
@@ -216,25 +221,44 @@ class Rounds {
     throw base::InputError(
         {.where = of_.study().file.string(),
          .subject = "engine.command",
-         .value = fmt::format("gave no reading in its first {} runs; the last of them: {}", runs,
-                              last_failure_),
+         .value = runs == 1 ? fmt::format("gave no reading in its first run: {}", last_failure_)
+                            : fmt::format("gave no reading in its first {} runs; the last of "
+                                          "them: {}",
+                                          runs, last_failure_),
          .fix = fmt::format("see the folders in {}; then give the same command again.",
                             of_.runs().folder().string())});
   }
 
-  void end_with(const NextRuns& next) {
-    if (of_.runs().made() < of_.most()) {
-      facts_.ended_by = "settled";
-      // What would narrow the answer in their place, the fit advises.
-      notes_.insert(notes_.end(), next.settled.begin(),
-                    next.settled.begin() + (next.settled.empty() ? 0 : 1));
-      return;
-    }
-    facts_.ended_by = "max_runs";
-    if (of_.most() == 0) return;
+  void end_with_failures(std::size_t runs) {
+    facts_.ended_by = "failures";
     notes_.push_back(fmt::format(
+        "No more runs were made: {} failed. The folders beside {} tell why; empty the status of "
+        "those that are to be made again.",
+        runs == 1 ? "the last one" : fmt::format("all {} of the last ones", runs), kRunsInFolder));
+  }
+
+  void end_with(const NextRuns& next) {
+    const bool is_settled = of_.runs().made() < of_.most();
+    facts_.ended_by = is_settled ? "settled" : "max_runs";
+    if (is_settled && !next.settled.empty()) {
+      // What would narrow the answer in their place, the fit advises.
+      notes_.push_back(next.settled.front());
+    } else if (!is_settled && of_.most() > 0) {
+      notes_.push_back(all_made_text());
+    }
+    if (std::string left_out = of_.left_out(); !left_out.empty()) notes_.push_back(left_out);
+  }
+
+  std::string all_made_text() const {
+    const std::size_t failed = of_.runs().failed();
+    std::string text = fmt::format(
         "All {} runs that may be made were made; more might narrow the answer. Fix: --max-runs.",
-        of_.most()));
+        of_.most());
+    if (failed == 0) return text;
+    return text + fmt::format(
+                      " {} of them failed: those whose status is emptied in {} are made again and "
+                      "count once.",
+                      failed, kRunsInFolder);
   }
 
   EngineStudy& of_;

@@ -32,6 +32,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Whether a run was prepared or has ended there.
+bool is_of_run(const fs::path& folder) {
+  return fs::exists(folder / kRunFile) || fs::exists(folder / kEndedFile);
+}
+
 /// Empty, whatever an earlier attempt left there.
 void empty_folder(const fs::path& folder) {
   if (base::is_in_use(folder / kOutputFile)) {
@@ -39,8 +44,7 @@ void empty_folder(const fs::path& folder) {
                  "wait until it has ended, or end it.");
   }
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_empty(folder, error) &&
-      !fs::exists(folder / kRunFile, error)) {
+  if (fs::exists(folder, error) && !fs::is_empty(folder, error) && !is_of_run(folder)) {
     base::refuse(folder, "has files that no engine's run left", "move them away.");
   }
   fs::remove_all(folder, error);
@@ -128,9 +132,13 @@ class Maker {
           fmt::format("took more than {:g} s, and was ended", settings_.timeout_s.value_or(run_s));
     } else if (!end.is_good()) {
       outcome.failure = end.text();
+    } else if (!fs::is_directory(run.folder)) {
+      outcome.failure = "it deleted its run's folder, with whatever it had left there";
     } else {
       outcome = engine_.read_back(run.folder);
     }
+    std::error_code ignored;
+    fs::create_directories(run.folder, ignored);  // which the program may have deleted
     const std::string failure = table_.keep(run.row, std::move(outcome));
     constexpr int kIndent = 2;
     const Json ended = {{"end", end.text()},
@@ -149,7 +157,10 @@ class Maker {
     const fs::path output = run.folder / kOutputFile;
     const std::vector<std::string> lines = base::last_lines(output, kShownLines);
     const std::string name = run.folder.filename().string();
-    if (lines.empty()) return fmt::format("{} failed: {}. It printed nothing.", name, failure);
+    if (lines.empty()) {
+      return fmt::format("{} failed: {}.{}", name, failure,
+                         fs::exists(output) ? " It printed nothing." : "");
+    }
     return fmt::format("{} failed: {}. The end of {}:\n  {}", name, failure, output.string(),
                        fmt::join(lines, "\n  "));
   }

@@ -282,12 +282,12 @@ Chapter table_chapter(const StudyResult& result) {
   const TableFacts& table = *result.provenance.table;
   chapter.blocks.push_back(measured_table(*joint));
   chapter.blocks.push_back(Paragraph{shortened(
-      fmt::format(
-          "The runs were made with another program, and are the {} rows of {}: {} of failed "
-          "runs, {} without any reading; {} more were left out. What the particles, walls "
-          "and experiments of these runs are, the table does not say.",
-          table.rows, fmt::join(table.files, ", "), table.failed, table.without_reading,
-          table.left_out),
+      fmt::format("The runs were made {}, and are the {} rows of {}: {} of them failed, {} have no "
+                  "reading; {} more were left out. What the particles, walls and experiments of "
+                  "these runs are, the table does not say.",
+                  table.engine ? "by a command of the study" : "with another program", table.rows,
+                  fmt::join(table.files, ", "), table.failed, table.without_reading,
+                  table.left_out),
       1000)});
   return chapter;
 }

@@ -235,6 +235,16 @@ std::string stiffness_text(const ModelFacts& model) {
 }
 
 void add_simulation(const Provenance& provenance, Methods& methods) {
+  if (provenance.table && provenance.table->engine) {
+    const EngineFacts& engine = *provenance.table->engine;
+    methods.add(fmt::format(
+        "{} simulations were made by the command \"{}\" at places that {} chose round by round, "
+        "where they narrow the answer most{}; {} of them failed.",
+        engine.runs, shortened(engine.command, 300), provenance.study.program,
+        provenance.table->rows > engine.runs ? ", and others were given to it as a table" : "",
+        engine.failed));
+    return;
+  }
   if (provenance.table) {
     methods.add(fmt::format(
         "{} simulations, or means of several with other seeds, were made with another program at "

@@ -10,7 +10,9 @@
 #include "base/atomic_file.h"
 #include "base/input_error.h"
 #include "calibrate/experiment/run_result.h"
+#include "calibrate/runs/table_columns.h"
 #include "calibrate/runs/table_study.h"
+#include "calibrate/statistics/table/table.h"
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/study_record.h"
 #include "dem/state/state_file.h"
@@ -90,6 +92,66 @@ std::vector<SavedRun> runs_in(const fs::path& folder) {
     if (auto run = saved_run_in(file)) runs.push_back(*std::move(run));
   }
   return runs;
+}
+
+/// What the first run that was prepared says of the study; null: none was.
+nlohmann::ordered_json first_run_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    files.push_back(entry.path() / "run.json");
+  }
+  std::ranges::sort(files);
+  for (const fs::path& file : files) {
+    const auto text = base::read_file_if_there(file);
+    if (!text) continue;
+    auto run = nlohmann::ordered_json::parse(*text, nullptr, false);
+    if (run.is_object() && run.contains("parameters") && run.contains("readings")) return run;
+  }
+  return nullptr;
+}
+
+/// The rows of runs.csv, that of runs which another program makes: a run of each reading.
+void take_made_runs(const fs::path& folder, ReportedStudy& study) {
+  const auto first = first_run_in(folder);
+  if (first.is_null() || !fs::exists(folder / "runs.csv")) return;
+  const calibrate::Table table = read_table(folder / "runs.csv", NoRows::allowed);
+  const auto cell = [&](const TableRow& row, const std::string& column) {
+    const auto place = table.column(column);
+    return place ? row.cells[*place] : std::string();
+  };
+  MadeRuns& made = study.made.emplace();
+  made.study = first.value("study", "");
+  for (const TableRow& row : table.rows) {
+    const std::string status = in_small_letters(cell(row, "status"));
+    bool has_any = false;
+    for (const auto& [reading, unit] : first["readings"].items()) {
+      has_any = has_any || !is_nothing(in_small_letters(cell(row, reading)));
+    }
+    if (!has_any && is_nothing(status)) {
+      ++made.to_make;
+      continue;
+    }
+    ++made.made;
+    made.failed += says_failed(status) || !has_any ? 1 : 0;
+    for (const auto& [reading, unit] : first["readings"].items()) {
+      SavedRun run{.experiment = reading, .values = {}, .readings = {}, .failure = {}};
+      for (const auto& [parameter, value] : first["parameters"].items()) {
+        run.values[parameter] = number_of(cell(row, parameter)).value_or(0);
+      }
+      if (const auto value = number_of(cell(row, reading))) run.readings["value"] = *value;
+      if (run.readings.empty()) run.failure = "no number";
+      study.runs.push_back(std::move(run));
+    }
+  }
+  for (const auto& [reading, said] : first["readings"].items()) {
+    study.measured.push_back({.name = reading,
+                              .experiment = reading,
+                              .reading = "value",
+                              .unit = said.value("unit", ""),
+                              .measured = {},
+                              .uncertainty = {}});
+  }
 }
 
 std::optional<StudyRecord> record_in(const fs::path& folder) {
@@ -177,6 +239,7 @@ ReportedStudy reported(const StudyResult& result, const std::vector<PictureReadi
                       .result = result,
                       .heading = {},
                       .runs = {},
+                      .made = {},
                       .measured = {},
                       .pictures = pictures,
                       .heap = heap};
@@ -213,6 +276,7 @@ ReportedStudy read_reported_study(const fs::path& folder) {
     study.has_other_result = result.has_value();
     if (notes) study.study = notes->study;
     study.runs = runs_in(folder / "runs");
+    if (study.runs.empty()) take_made_runs(folder / "runs", study);
     if (record) study.measured = measured_of(*record);
     study.pictures = pictures;
   }

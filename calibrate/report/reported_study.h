@@ -29,6 +29,14 @@ struct MeasuredNumber {
   std::optional<double> uncertainty;  ///< standard uncertainty of the mean
 };
 
+/// Runs of an unfinished study that another program makes.
+struct MadeRuns {
+  int made = 0;
+  int failed = 0;     ///< of these
+  int to_make = 0;    ///< that were asked for and are still to be made
+  std::string study;  ///< its file, as far as it is known
+};
+
 /// All that a report is made of: a result, or the runs of a study that has none yet.
 struct ReportedStudy {
   std::filesystem::path folder;        ///< of repose calibrate --out; empty: there is none
@@ -38,6 +46,7 @@ struct ReportedStudy {
   dem::StudyHeading heading;           ///< the study's own title, author, date and note
   bool has_other_result = false;       ///< the folder has a result of other settings
   std::vector<SavedRun> runs;          ///< of the result, else all that were saved
+  std::optional<MadeRuns> made;        ///< unfinished, by another program; none: not so
   std::vector<MeasuredNumber> measured;
   std::vector<PictureReading> pictures;  ///< of the bench's heaps
   std::filesystem::path heap;            ///< state of the simulated one; empty: none

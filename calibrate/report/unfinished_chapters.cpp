@@ -30,7 +30,8 @@ std::string command_to_go_on(const ReportedStudy& study) {
       command += " --set " + quoted_word(setting);
     }
   } else {
-    command += "STUDY.toml";
+    command +=
+        study.made && !study.made->study.empty() ? quoted_word(study.made->study) : "STUDY.toml";
   }
   return command + " --out " + quoted_word(study.folder.string());
 }
@@ -42,12 +43,13 @@ Table counts_table(const ReportedStudy& study) {
     ++done;
     if (!run.failure.empty()) ++failed;
   }
-  Table table{.name = "simulations",
-              .title = "Simulations completed",
-              .data = {.columns = {{.name = "experiment", .unit = {}},
-                                   {.name = "simulations", .unit = {}, .decimals = 0},
-                                   {.name = "without a reading", .unit = {}, .decimals = 0}},
-                       .rows = {}}};
+  Table table{
+      .name = "simulations",
+      .title = study.made ? "Runs made" : "Simulations completed",
+      .data = {.columns = {{.name = study.made ? "reading" : "experiment", .unit = {}},
+                           {.name = study.made ? "runs" : "simulations", .unit = {}, .decimals = 0},
+                           {.name = "without a reading", .unit = {}, .decimals = 0}},
+               .rows = {}}};
   for (const auto& [experiment, count] : counts) {
     table.data.add({shortened(experiment), count[0], count[1]});
   }
@@ -73,14 +75,23 @@ std::vector<MeasuredNumber> shown_numbers(const ReportedStudy& study) {
   return numbers;
 }
 
+std::string progress_text(const ReportedStudy& study) {
+  constexpr const char* kRest =
+      "there is no result yet. Nothing is lost: the same command resumes where it was interrupted.";
+  if (!study.made) {
+    return fmt::format("{} simulations are complete, but {}", study.runs.size(), kRest);
+  }
+  return fmt::format(
+      "{} runs were made by another program, of which {} failed, and {} that were asked for are "
+      "still to be made: {}",
+      study.made->made, study.made->failed, study.made->to_make, kRest);
+}
+
 }  // namespace
 
 std::vector<Chapter> unfinished_chapters(const ReportedStudy& study) {
   Chapter state{.id = "answer", .title = "Progress", .blocks = {}};
-  state.blocks.push_back(Paragraph{
-      fmt::format("{} simulations are complete, but there is no result yet. Nothing is lost: the "
-                  "same command resumes where it was interrupted.",
-                  study.runs.size())});
+  state.blocks.push_back(Paragraph{progress_text(study)});
   if (study.has_other_result) {
     state.blocks.push_back(
         Remark{"The folder's result.json is from another study, budget or method, and is not shown "

@@ -381,8 +381,9 @@ std::string determined_sentence(const JointResult& joint) {
   const std::ptrdiff_t determined = with(Verdict::determined);
   const std::ptrdiff_t all = std::ssize(joint.parameters);
   if (determined == all) {
-    return all == 1 ? "The coefficient is determined by these measurements."
-                    : fmt::format("All {} coefficients are determined by these measurements.", all);
+    if (all == 1) return "The coefficient is determined by these measurements.";
+    return fmt::format("{} coefficients are determined by these measurements.",
+                       all == 2 ? std::string("Both") : fmt::format("All {}", all));
   }
   std::string text = determined == 0
                          ? "No coefficient is determined by these measurements."

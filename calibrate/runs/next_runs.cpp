@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/misfit.h"
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/rounds.h"
 #include "calibrate/fit/solution.h"
@@ -30,16 +31,48 @@ double nearest2(const Point& point, const std::vector<Point>& others) {
   return nearest;
 }
 
-/// The place of an even spread that is farthest from all that there are.
-Point farthest(const std::vector<Point>& others, std::size_t dimensions) {
+/// Where more of the runs nearby failed than gave a reading, the next one is likely to fail, too.
+class LikelyFailures {
+ public:
+  LikelyFailures(const Problem& problem, const TableRuns& table)
+      : risk_(attempts_in(problem, table)) {}
+
+  bool any() const { return risk_.any(); }
+  bool at(const Point& point) const {
+    constexpr double kMost = .5;
+    return risk_.any() && risk_.at(point).fraction > kMost;
+  }
+
+ private:
+  static Attempts attempts_in(const Problem& problem, const TableRuns& table) {
+    Attempts attempts;
+    for (std::size_t j = 0; j < problem.parameters.size(); ++j) attempts.parameters.push_back(j);
+    for (std::size_t k = 0; k < table.places.size(); ++k) {
+      if (table.ends[k] == RowEnd::nothing) continue;
+      attempts.places.push_back(to_unit(problem, table.places[k]));
+      attempts.failed.push_back(table.ends[k] == RowEnd::failed);
+    }
+    return attempts;
+  }
+
+  FailureRisk risk_;
+};
+
+/// The place of an even spread that is farthest from all that there are, of those where runs are
+/// not likely to fail; where they are everywhere, of all.
+Point farthest(const std::vector<Point>& others, std::size_t dimensions,
+               const LikelyFailures& failures) {
   constexpr std::size_t kSpread = 512;
   Point best;
   double most = -1;
+  bool fails = true;
   for (std::size_t k = 0; k < kSpread; ++k) {
     Point point = sequence_point(k, dimensions);
     const double far = nearest2(point, others);
-    if (far > most) {
+    const bool fails_here = failures.at(point);
+    if (fails_here == fails ? far > most : fails) {
       most = far;
+      fails = fails_here;
       best = std::move(point);
     }
   }
@@ -64,6 +97,7 @@ NextRuns spread_runs(const Problem& problem, const TableRuns& table, std::size_t
   constexpr std::size_t kRepeatEvery = 6;
   std::vector<Point> places = places_of(problem, table);
   const bool repeats = !tells_chance(table);
+  const LikelyFailures failures(problem, table);
   NextRuns next;
   for (std::size_t k = 0; k < count; ++k) {
     if (repeats && k % kRepeatEvery == kRepeatEvery - 1) {
@@ -74,7 +108,7 @@ NextRuns spread_runs(const Problem& problem, const TableRuns& table, std::size_t
     }
     const bool is_start = table.places.empty();
     places.push_back(is_start ? sequence_point(places.size(), problem.parameters.size())
-                              : farthest(places, problem.parameters.size()));
+                              : farthest(places, problem.parameters.size(), failures));
     next.runs.push_back({to_values(problem, places.back()),
                          is_start ? "a start that fills the bounds evenly"
                                   : "far from all other runs: fills the bounds evenly"});
@@ -102,16 +136,36 @@ std::string reason_at(const Problem& problem, const Solution& solution, const Po
 }
 
 /// What more runs would not do, the advice of the fit does.
-std::vector<std::string> settled_text(const JointFit& fit, std::size_t chosen) {
+std::vector<std::string> settled_text(const JointFit& fit, std::size_t chosen,
+                                      bool is_some_left_out) {
   std::vector<std::string> lines = {fmt::format(
-      "{} would narrow the answer: where parameters fit, the surfaces through the runs are known "
+      "{} would narrow the answer: where parameters fit{}, the surfaces through the runs are known "
       "much better than the bench's means.",
-      chosen == 0 ? "No further run" : fmt::format("No more than {} runs", chosen))};
+      chosen == 0 ? "No further run"
+                  : fmt::format("No more than {} run{}", chosen, chosen == 1 ? "" : "s"),
+      is_some_left_out ? " and runs are not likely to fail" : "")};
   for (const FittedParameter& parameter : fit.parameters) {
     if (parameter.advice.empty()) continue;
     lines.push_back(fmt::format("{}: {}", parameter.name, parameter.advice));
   }
   return lines;
+}
+
+/// @return  how much of the candidates is taken out, 0 to 1
+double take_out_failures(const LikelyFailures& failures, std::vector<Point>& candidates) {
+  const auto all = static_cast<double>(candidates.size());
+  return static_cast<double>(std::erase_if(
+             candidates, [&](const Point& candidate) { return failures.at(candidate); })) /
+         all;
+}
+
+std::string left_out_text(double fraction) {
+  if (fraction == 0) return {};
+  return fmt::format(
+      "No run is asked for in {:.0f} % of where the parameters may fit: more runs near there "
+      "failed than gave a reading. If the parameters are not to blame, empty the cells that say "
+      "so.",
+      std::max(1., 100 * fraction));
 }
 
 NextRuns narrowing_runs(const Problem& problem, const TableRuns& table, std::size_t count) {
@@ -126,11 +180,17 @@ NextRuns narrowing_runs(const Problem& problem, const TableRuns& table, std::siz
   }
   NextRuns next;
   if (is_known) {
-    next.settled = settled_text(fit_of(problem, runs, solution, {}), 0);
+    next.settled = settled_text(fit_of(problem, runs, solution, {}), 0, false);
     return next;
   }
   std::vector<Point> places = places_of(problem, table);
-  const std::vector<Point> candidates = candidate_places(solution.sets);
+  std::vector<Point> candidates = candidate_places(solution.sets);
+  const LikelyFailures failures(problem, table);
+  next.left_out = left_out_text(take_out_failures(failures, candidates));
+  if (candidates.empty()) {
+    next.settled = {"No further run would narrow the answer: where parameters fit, runs fail."};
+    return next;
+  }
   const std::size_t elsewhere = count / kSpreadEvery;
   for (const std::size_t chosen :
        best_places(surrogates, weights, candidates, count - elsewhere, kKnownWell)) {
@@ -142,12 +202,13 @@ NextRuns narrowing_runs(const Problem& problem, const TableRuns& table, std::siz
   }
   const bool is_cut = next.runs.size() < count - elsewhere;
   for (std::size_t k = 0; k < elsewhere && !is_cut; ++k) {
-    places.push_back(farthest(places, problem.parameters.size()));
+    places.push_back(farthest(places, problem.parameters.size(), failures));
     next.runs.push_back({to_values(problem, places.back()),
                          "far from all other runs: shows whether anything else fits there"});
   }
   if (is_cut) {
-    next.settled = settled_text(fit_of(problem, runs, solution, {}), next.runs.size());
+    next.settled =
+        settled_text(fit_of(problem, runs, solution, {}), next.runs.size(), !next.left_out.empty());
   }
   return next;
 }

@@ -21,13 +21,16 @@ struct NextRuns {
   /// Why there are fewer than asked for, and what would narrow the answer in their place; else
   /// empty.
   std::vector<std::string> settled;
+  std::string left_out;  ///< where runs are likely to fail and none is asked for; else empty
 };
 
 /// The next runs of a study of a table, `count` of them at most. As long as too few places have
 /// readings for a fit, they fill the bounds evenly, some of them twice where it is not known yet
 /// what chance does; then they are where they narrow the answer most (rounds.h), one in eight
-/// elsewhere, until the surfaces through them would be known better than the bench's means. Proved
-/// by NextRunsTest.* in tests/calibrate.
+/// elsewhere, until the surfaces through them would be known better than the bench's means. None is
+/// where more of the runs nearby failed than gave a reading (FailureRisk, misfit.h): around a
+/// failure among others that is half the way to them, and the more failed there, the farther from
+/// them. Proved by NextRunsTest.* in tests/calibrate.
 /// @throws base::InputError  the problem is not sound.
 NextRuns next_runs(const TableStudy& study, const TableRuns& table, std::size_t count);
 

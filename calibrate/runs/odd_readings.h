@@ -27,7 +27,7 @@ struct OddReading {
 /// of the mean. Too far is six standard deviations of a further run there, which normal chance
 /// passes in one row of 10^8 and Student's of ten degrees of freedom in one of 10^4, and a quarter
 /// of all that the others span, so that what a smooth surface does not follow is no slip. Proved by
-/// OddReadings.* in tests/calibrate/table_fit_test.cpp.
+/// OddReadings.* in tests/calibrate/odd_tables_test.cpp.
 std::vector<OddReading> odd_readings(const Problem& problem, const TableRuns& table);
 
 }  // namespace repose::calibrate

@@ -80,16 +80,6 @@ std::string named(const Table& table, const Cell& cell, const std::string& why) 
   return fmt::format("line {}, {}: {}", table.rows[cell.row].line, cell.name, why);
 }
 
-/// The first few, and how many more there are.
-std::string listed(const std::vector<std::string>& all) {
-  constexpr std::size_t kShown = 10;
-  const std::size_t shown = std::min(kShown, all.size());
-  std::string text = fmt::format(
-      "{}", fmt::join(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), "; "));
-  if (shown < all.size()) text += fmt::format("; and {} more", all.size() - shown);
-  return text;
-}
-
 std::vector<Cell> cells_in(const TableStudy& study, const fs::path& folder, const Table& table,
                            base::Faults& faults) {
   std::vector<Cell> cells;
@@ -161,11 +151,11 @@ class Reading {
     }
     if (!refused_.empty()) {
       notes.push_back(fmt::format("{}: {}: refused, and without a reading: {}.", table_.name, name_,
-                                  listed(refused_)));
+                                  listed(refused_, "; ")));
     }
     if (!flagged_.empty()) {
       notes.push_back(fmt::format("{}: {}: flagged, and counted: {}. Look at these.", table_.name,
-                                  name_, listed(flagged_)));
+                                  name_, listed(flagged_, "; ")));
     }
   }
 

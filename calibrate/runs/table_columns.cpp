@@ -47,6 +47,15 @@ bool says_done(const std::string& small) {
                            "complete", "completed", "converged", "yes", "true", "1", "0"});
 }
 
+std::string listed(const std::vector<std::string>& all, std::string_view between) {
+  constexpr std::size_t kShown = 10;
+  const std::size_t shown = std::min(kShown, all.size());
+  const auto end = all.begin() + static_cast<std::ptrdiff_t>(shown);
+  const std::string text = fmt::format("{}", fmt::join(all.begin(), end, between));
+  return shown == all.size() ? text
+                             : fmt::format("{}{}and {} more", text, between, all.size() - shown);
+}
+
 namespace {
 
 /// What programs and people write beside settings and readings.
@@ -140,7 +149,7 @@ TableColumns columns_of(const TableStudy& study, const Table& table, base::Fault
     faults.add({.where = table.name,
                 .value = fmt::format("has no column {}, which is in [{}]{}", name, section,
                                      guess.empty() ? "" : fmt::format(". Did you mean {}?", guess)),
-                .fix = fmt::format("its columns are {}.", fmt::join(table.columns, ", "))});
+                .fix = fmt::format("its columns are {}.", listed(table.columns))});
   };
   for (const Parameter& parameter : study.parameters) {
     found.parameters.push_back(parameter.name);

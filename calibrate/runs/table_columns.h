@@ -22,6 +22,9 @@ bool is_nothing(const std::string& small);   ///< nothing is said
 bool says_failed(const std::string& small);  ///< what is written where a run gave no number
 bool says_done(const std::string& small);
 
+/// The first few of them, and how many more there are.
+std::string listed(const std::vector<std::string>& all, std::string_view between = ", ");
+
 /// What the columns of one table are.
 struct TableColumns {
   std::vector<std::string> parameters;

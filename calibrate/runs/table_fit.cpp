@@ -116,7 +116,9 @@ bool misses_a_reading(const JointFit& fit) {
   });
 }
 
-std::string unchecked_text(const JointFit& fit, const std::vector<OddReading>& odd) {
+/// @param has_engine  the study's command makes runs
+std::string unchecked_text(const JointFit& fit, const std::vector<OddReading>& odd,
+                           bool has_engine) {
   if (misses_a_reading(fit)) {
     std::string first;
     for (const OddReading& one : odd) {
@@ -133,9 +135,12 @@ std::string unchecked_text(const JointFit& fit, const std::vector<OddReading>& o
   }
   return fmt::format(
       "the fit rests on surfaces through the table's runs, which give {} (standard uncertainties) "
-      "at the fitted parameters. To check them, run them with your program, add the row to the "
-      "table, and calibrate again",
-      surfaces_text(fit));
+      "at the fitted parameters. To check them, {}",
+      surfaces_text(fit),
+      has_engine
+          ? "add a row with their values and nothing else to runs/runs.csv, and give the same "
+            "command again with a higher --max-runs"
+          : "run them with your program, add the row to the table, and calibrate again");
 }
 
 void note_odd(const std::vector<OddReading>& odd, std::vector<std::string>& notes) {
@@ -245,10 +250,25 @@ std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns&
 
 namespace {
 
-Problem sound_problem_of(const TableStudy& study, const TableRuns& table) {
+/// How runs are added that an engine makes.
+std::string more_runs_text(const EngineFacts& engine) {
+  std::string text = "make more runs, with a higher --max-runs";
+  if (engine.failed == 0) return text + '.';
+  return text + fmt::format(
+                    "; {} of {} failed: those whose status is emptied in runs/runs.csv are made "
+                    "again.",
+                    engine.failed, engine.runs);
+}
+
+/// @param engine  that makes the runs; none: somebody does by hand
+Problem sound_problem_of(const TableStudy& study, const TableRuns& table,
+                         const std::optional<EngineFacts>& engine) {
   Problem problem = problem_of(study, table);
   base::Faults faults;
-  faults.add_all(too_few_places(problem, table));
+  for (base::Fault fault : too_few_places(problem, table)) {
+    if (engine) fault.fix = more_runs_text(*engine);
+    faults.add(std::move(fault));
+  }
   faults.throw_if_any();
   require_sound(problem);
   return problem;
@@ -268,8 +288,9 @@ base::FolderLock locked(const fs::path& folder) {
 
 }  // namespace
 
-StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
-  const Problem problem = sound_problem_of(study, table);
+StudyResult fit_table(const TableStudy& study, const TableRuns& table,
+                      const std::optional<EngineFacts>& engine) {
+  const Problem problem = sound_problem_of(study, table, engine);
   const std::vector<Run> runs = in_order(problem, table.runs);
   const Solution solution = solve(problem, runs);
   JointFit fit = fit_of(problem, runs, solution, {});
@@ -280,7 +301,7 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
   if (misses_a_reading(fit)) withdraw_intervals(problem, fit);
   JointResult joint = fitted_result(problem, fit, runs);
   const std::vector<OddReading> odd = odd_readings(problem, table);
-  joint.agreement.text = unchecked_text(fit, odd);
+  joint.agreement.text = unchecked_text(fit, odd, engine.has_value());
   for (const Observable& observable : problem.held_out) {
     joint.held_out.push_back(predicted(problem, observable, solution, runs));
   }
@@ -297,7 +318,7 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table) {
                                              .failed = table.failed,
                                              .without_reading = table.without_reading,
                                              .left_out = table.left_out,
-                                             .engine = {}}},
+                                             .engine = engine}},
           .found = std::move(joint)};
 }
 
@@ -316,17 +337,16 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
     faults.add_all(error.faults());
   }
   faults.throw_if_any();
-  sound_problem_of(*study, *table);      // before a folder is made
-  std::optional<base::FolderLock> lock;  // who made the runs holds it already
+  sound_problem_of(*study, *table, request.engine);  // before a folder is made
+  std::optional<base::FolderLock> lock;              // who made the runs holds it already
   if (!request.engine) lock.emplace(locked(folder));
   std::optional<StudyResult> result;
   try {
     const FitWatch watch(is_interrupted);
-    result = fit_table(*study, *table);
+    result = fit_table(*study, *table, request.engine);
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }
-  result->provenance.table->engine = request.engine;
   std::vector<std::string>& warnings = std::get<JointResult>(result->found).warnings;
   warnings.insert(warnings.begin(), request.notes.begin(), request.notes.end());
   const StudyIdentity& identity = result->provenance.study;

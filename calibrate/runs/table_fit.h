@@ -27,8 +27,10 @@ std::size_t fewest_places(const Problem& problem);
 std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns& table);
 
 /// Fits, and predicts what is held out from surfaces through the table's runs.
+/// @param engine  that made runs of the table; none: somebody did by hand
 /// @throws base::InputError  too few rows have a reading.
-StudyResult fit_table(const TableStudy& study, const TableRuns& table);
+StudyResult fit_table(const TableStudy& study, const TableRuns& table,
+                      const std::optional<EngineFacts>& engine = {});
 
 /// What is calibrated: the options of `repose calibrate --runs`.
 struct TableRequest {

@@ -15,205 +15,21 @@
 #include "base/input_error.h"
 #include "calibrate/runs/pictured_cells.h"
 #include "calibrate/runs/table_columns.h"
+#include "calibrate/runs/table_rows.h"
 #include "calibrate/statistics/table/other_rows.h"
 
 namespace repose::calibrate {
 namespace {
 
+namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
-
-/// A row, as far as it is numbers.
-struct Row {
-  int line = 0;
-  std::string where;                                   ///< "runs.csv:14"
-  std::vector<double> values;                          ///< of the parameters
-  std::map<std::string, std::optional<double>> reads;  ///< none: empty, or the run failed
-  std::map<std::string, double> sds;
-  std::map<std::string, double> own_sds;  ///< of readings measured in pictures
-  std::optional<std::uint64_t> seed;
-  int repeats = 1;
-  std::string failure;                          ///< of all readings
-  std::map<std::string, std::string> failures;  ///< of one
-};
-
-/// The rows of one table.
-class RowReader {
- public:
-  RowReader(const TableStudy& study, Table table, base::Faults& faults)
-      : study_(study),
-        table_(std::move(table)),
-        columns_(columns_of(study, table_, faults)),
-        faults_(faults) {}
-
-  const TableColumns& columns() const { return columns_; }
-
-  std::vector<Row> rows() {
-    std::vector<Row> rows(table_.rows.size());
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      rows[k].line = table_.rows[k].line;
-      rows[k].where = fmt::format("{}:{}", table_.name, rows[k].line);
-    }
-    if (!faults_.empty()) return rows;
-    read_numbers(rows);
-    for (std::size_t k = 0; k < rows.size(); ++k) read_words(table_.rows[k], rows[k]);
-    return rows;
-  }
-
-  Names unknown_words() const { return {unknown_.begin(), unknown_.end()}; }
-
- private:
-  const std::string& cell(const TableRow& row, const std::string& column) const {
-    return row.cells[*table_.column(column)];
-  }
-
-  base::Fault fault_at(int line, const std::string& column, std::string value, std::string fix) {
-    return {.where = fmt::format("{}:{}", table_.name, line),
-            .subject = column,
-            .value = std::move(value),
-            .fix = std::move(fix)};
-  }
-
-  /// Numbers of a column that a row may lack: those that are words are left as 0, and passed over.
-  Names sparse_columns() const {
-    Names names = columns_.readings;
-    for (const auto& [reading, column] : columns_.sd) names.push_back(column);
-    for (const auto& column : {columns_.count, columns_.seed}) {
-      if (column) names.push_back(*column);
-    }
-    return names;
-  }
-
-  void read_numbers(std::vector<Row>& rows) {
-    // What a point or a comma means is told by all numbers together.
-    Table numbers = table_;
-    std::vector<NumberColumn> wanted;
-    for (const Parameter& parameter : study_.parameters) {
-      const double width = parameter.max - parameter.min;
-      wanted.push_back(
-          {.name = parameter.name, .above = parameter.min - width, .below = parameter.max + width});
-    }
-    const Names sparse = sparse_columns();
-    for (const std::string& name : sparse) {
-      wanted.push_back({.name = name});
-      const std::size_t place = *table_.column(name);
-      for (TableRow& row : numbers.rows) {
-        const std::string small = in_small_letters(row.cells[place]);
-        if (is_nothing(small) || says_failed(small)) row.cells[place].assign(1, '0');
-      }
-    }
-    std::vector<std::vector<double>> all;
-    try {
-      all = numbers_of(numbers, wanted);
-    } catch (const base::InputError& error) {
-      faults_.add_all(error.faults());
-      return;
-    }
-    const auto number = [&](const std::string& column, std::size_t row) -> std::optional<double> {
-      const std::string small = in_small_letters(cell(table_.rows[row], column));
-      if (is_nothing(small) || says_failed(small)) return std::nullopt;
-      const auto found = std::ranges::find(wanted, column, &NumberColumn::name);
-      return all[static_cast<std::size_t>(found - wanted.begin())][row];
-    };
-    base::Faults cells(kMaxRowErrors);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      Row& row = rows[k];
-      for (std::size_t j = 0; j < columns_.parameters.size(); ++j) row.values.push_back(all[j][k]);
-      for (const std::string& reading : columns_.readings) {
-        row.reads[reading] = number(reading, k);
-        if (row.reads[reading] && std::abs(*row.reads[reading]) > kMaxReading) {
-          cells.add(fault_at(row.line, reading, fmt::format("is {:g}", *row.reads[reading]),
-                             "NaN where the run failed, or another unit."));
-        }
-        check_range(row, reading, cells);
-      }
-      read_repeats(row, k, number, cells);
-    }
-    faults_.add_all(cells.all());
-  }
-
-  /// An angle of 9999 degrees is a failed run's.
-  void check_range(const Row& row, const std::string& reading, base::Faults& cells) {
-    const auto value = row.reads.at(reading);
-    for (const auto* observables : {&study_.measured, &study_.held_out}) {
-      for (const Observable& one : *observables) {
-        if (!value || one.name != reading) continue;
-        if (*value >= one.least && *value <= one.most) continue;
-        cells.add(fault_at(row.line, reading,
-                           fmt::format("is {:g}: in {}, readings are from {:g} to {:g}", *value,
-                                       one.unit, one.least, one.most),
-                           "NaN where the run failed, or another unit."));
-      }
-    }
-  }
-
-  template <typename Number>
-  void read_repeats(Row& row, std::size_t k, const Number& number, base::Faults& cells) {
-    const auto is_whole = [](double value) { return value >= 0 && value == std::floor(value); };
-    constexpr double kMostRepeats = 1e6, kMostSeed = 9007199254740992.;  // whole in a double
-    if (columns_.count) {
-      const auto count = number(*columns_.count, k);
-      if (count && (!is_whole(*count) || *count > kMostRepeats)) {
-        cells.add(fault_at(row.line, *columns_.count, fmt::format("is {:g}", *count),
-                           "the number of runs that the row is the mean of."));
-      } else if (count) {
-        row.repeats = static_cast<int>(*count);
-      }
-    }
-    if (columns_.seed) {
-      const auto seed = number(*columns_.seed, k);
-      if (seed && (!is_whole(*seed) || *seed > kMostSeed)) {
-        cells.add(fault_at(row.line, *columns_.seed, fmt::format("is {:g}", *seed),
-                           "a whole number from 0 on, or leave it empty."));
-      } else if (seed) {
-        row.seed = static_cast<std::uint64_t>(*seed);
-      }
-    }
-    for (const auto& [reading, column] : columns_.sd) {
-      const auto sd = number(column, k);
-      if (sd && *sd < 0) {
-        cells.add(fault_at(row.line, column, fmt::format("is {:g}", *sd),
-                           "a standard deviation is 0 or more."));
-      } else if (sd && row.repeats > 1) {
-        row.sds[reading] = *sd;
-      }
-    }
-  }
-
-  void read_words(const TableRow& cells, Row& row) {
-    if (columns_.status) {
-      const std::string& status = cell(cells, *columns_.status);
-      const std::string small = in_small_letters(status);
-      if (says_failed(small) || small == "no" || small == "false") {
-        row.failure = fmt::format("{} is {}", *columns_.status, status);
-      } else if (!says_done(small) && !is_nothing(small)) {
-        unknown_.insert(status);
-      }
-    }
-    if (columns_.count && row.repeats == 0) {
-      row.failure = fmt::format("{} is 0", *columns_.count);
-      row.repeats = 1;
-    }
-    for (const std::string& reading : columns_.readings) {
-      const std::string& word = cell(cells, reading);
-      if (says_failed(in_small_letters(word))) {
-        row.failures[reading] = fmt::format("{} is {}", reading, word);
-      }
-    }
-  }
-
-  const TableStudy& study_;
-  Table table_;
-  TableColumns columns_;
-  base::Faults& faults_;
-  std::set<std::string> unknown_;
-};
 
 /// Puts the rows of all tables together.
 class Collector {
  public:
   explicit Collector(const TableStudy& study) : study_(study), readings_(readings_of(study)) {}
 
-  void add(const std::string& file, const TableColumns& columns, std::vector<Row> rows) {
+  void add(const std::string& file, const TableColumns& columns, std::vector<RunRow> rows) {
     for (std::size_t k = columns.measured; k < columns.readings.size(); ++k) {
       if (std::ranges::find(others_, columns.readings[k]) == others_.end()) {
         others_.push_back(columns.readings[k]);
@@ -221,7 +37,7 @@ class Collector {
     }
     int outside = 0;
     std::string first;
-    for (Row& row : rows) {
+    for (RunRow& row : rows) {
       if (const std::string why = outside_of(row); !why.empty()) {
         if (outside++ == 0) first = fmt::format("line {}: {}", row.line, why);
         continue;
@@ -239,9 +55,9 @@ class Collector {
   TableRuns take() {
     number_repeats();
     found_.rows = static_cast<int>(all_.size());
-    for (const Row& row : all_) {
+    for (const RunRow& row : all_) {
       found_.places.push_back(row.values);
-      add_runs(row);
+      found_.ends.push_back(add_runs(row));
     }
     for (const std::string& other : others_) add_offer(other);
     count_failures();
@@ -249,7 +65,7 @@ class Collector {
   }
 
  private:
-  std::string outside_of(const Row& row) const {
+  std::string outside_of(const RunRow& row) const {
     for (std::size_t j = 0; j < row.values.size(); ++j) {
       const Parameter& parameter = study_.parameters[j];
       if (row.values[j] >= parameter.min && row.values[j] <= parameter.max) continue;
@@ -259,15 +75,14 @@ class Collector {
     return {};
   }
 
-  /// A run that is still to be made.
-  static bool says_nothing(const Row& row) {
-    return row.failure.empty() && row.failures.empty() &&
+  /// A run that failed or is still to be made: alike ones are no copies.
+  static bool says_nothing(const RunRow& row) {
+    return !row.failure.empty() ||
            std::ranges::none_of(row.reads, [](const auto& one) { return one.second.has_value(); });
   }
 
-  static bool is_copy(const Row& one, const Row& other) {
-    return one.reads == other.reads && one.failure == other.failure &&
-           one.failures == other.failures;
+  static bool is_copy(const RunRow& one, const RunRow& other) {
+    return one.reads == other.reads && one.failures == other.failures;
   }
 
   /// What rows at one place tell.
@@ -280,7 +95,7 @@ class Collector {
   void compare(const std::vector<std::size_t>& rows, std::size_t i, Repeats& repeats) const {
     bool is_one = false, is_first = true;
     for (std::size_t j = 0; j < i; ++j) {
-      const Row &row = all_[rows[i]], &before = all_[rows[j]];
+      const RunRow &row = all_[rows[i]], &before = all_[rows[j]];
       if (says_nothing(row) || says_nothing(before)) continue;
       is_first = false;
       is_one = is_one || is_copy(row, before);
@@ -300,7 +115,7 @@ class Collector {
     for (std::size_t k = 0; k < all_.size(); ++k) by_place[all_[k].values].push_back(k);
     Repeats repeats;
     // Repeats that a row is the mean of tell it, too.
-    repeats.differ = std::ranges::any_of(all_, [](const Row& row) {
+    repeats.differ = std::ranges::any_of(all_, [](const RunRow& row) {
       return std::ranges::any_of(row.sds, [](const auto& one) { return one.second > 0; });
     });
     for (const auto& [place, rows] : by_place) {
@@ -325,7 +140,7 @@ class Collector {
           copies));
       return;
     }
-    std::vector<Row> kept;
+    std::vector<RunRow> kept;
     for (std::size_t k = 0; k < all_.size(); ++k) {
       if (!repeats.copies.contains(k)) kept.push_back(std::move(all_[k]));
     }
@@ -353,7 +168,7 @@ class Collector {
     }
   }
 
-  static std::optional<Run> run_of(const Row& row, const std::string& reading) {
+  static std::optional<Run> run_of(const RunRow& row, const std::string& reading) {
     Run run;
     run.job = {.experiment = reading, .values = row.values, .seed = row.seed.value_or(1)};
     run.failure = row.failure;
@@ -375,7 +190,7 @@ class Collector {
     return run;
   }
 
-  void add_runs(const Row& row) {
+  RowEnd add_runs(const RunRow& row) {
     bool has_any = false, has_failed = false;
     for (const std::string& reading : readings_) {
       const auto run = run_of(row, reading);
@@ -390,7 +205,9 @@ class Collector {
       found_.run_rows.push_back(row.where);
     }
     if (has_failed) ++found_.failed;
-    if (!has_any && !has_failed) ++found_.without_reading;
+    if (has_failed) return RowEnd::failed;
+    if (!has_any) ++found_.without_reading;
+    return has_any ? RowEnd::reading : RowEnd::nothing;
   }
 
   void add_offer(const std::string& other) {
@@ -402,7 +219,7 @@ class Collector {
     for (std::size_t j = 0; j < study_.parameters.size(); ++j) {
       offer.experiment.parameters.push_back(j);
     }
-    for (const Row& row : all_) {
+    for (const RunRow& row : all_) {
       const auto run = run_of(row, other);
       if (run && run->failure.empty()) offer.runs.push_back(*run);
     }
@@ -428,51 +245,48 @@ class Collector {
   const TableStudy& study_;
   Names readings_;
   Names others_;
-  std::vector<Row> all_;
+  std::vector<RunRow> all_;
   std::string why_;  ///< the first failed run failed
   TableRuns found_;
 };
 
 /// What became of the columns, where that may not be what was meant.
-void note_columns(const Table& table, const TableColumns& columns, const std::vector<Row>& rows,
-                  const Names& unknown_words, std::vector<std::string>& notes) {
+void note_columns(const Table& table, const RunRows& read, std::vector<std::string>& notes) {
+  const TableColumns& columns = read.columns;
+  const auto note = [&](const std::string& text) {
+    notes.push_back(fmt::format("{}: {}", table.name, text));
+  };
   if (table.has_unnamed_row_numbers) {
-    notes.push_back(fmt::format(
-        "{}: the first column has no name and is taken for the rows' numbers.", table.name));
+    note("the first column has no name and is taken for the rows' numbers.");
   }
-  if (!columns.unused.empty()) {
-    notes.push_back(fmt::format("{}: not used: {}.", table.name, fmt::join(columns.unused, ", ")));
-  }
+  Names unused = columns.unused;
+  // What repose writes there itself, nobody misses.
+  std::erase_if(unused, [](const std::string& name) { return name == "run" || name == "reason"; });
+  if (!unused.empty()) note(fmt::format("not used: {}.", listed(unused)));
   for (const auto& [reading, column] : columns.sd) {
-    const bool is_used =
-        std::ranges::any_of(rows, [&](const Row& row) { return row.sds.contains(reading); });
-    if (rows.empty()) continue;
-    if (is_used) {
-      notes.push_back(
-          fmt::format("{}: {} is taken for the standard deviation of the runs that a row is the "
-                      "mean of, {} for "
-                      "how many they are.",
-                      table.name, column, *columns.count));
-      continue;
-    }
-    notes.push_back(
-        fmt::format("{}: {} is not used: no row says of how many runs it is. Fix: a column n.",
-                    table.name, column));
+    if (read.rows.empty()) continue;
+    const bool is_used = std::ranges::any_of(
+        read.rows, [&](const RunRow& row) { return row.sds.contains(reading); });
+    note(is_used ? fmt::format("{} is taken for the standard deviation of the runs that a row is "
+                               "the mean of, {} for how many they are.",
+                               column, *columns.count)
+                 : fmt::format("{} is not used: no row says of how many runs it is. Fix: a column "
+                               "n.",
+                               column));
   }
   for (const std::string& setting : columns.settings) {
     std::set<std::string> values;
     for (const TableRow& row : table.rows) values.insert(row.cells[*table.column(setting)]);
     if (values.size() < 2) continue;
-    notes.push_back(fmt::format(
-        "{}: {} differs between rows ({}), and is no parameter: all rows are taken for runs of the "
+    note(fmt::format(
+        "{} differs between rows ({}), and is no parameter: all rows are taken for runs of the "
         "same model. Fix: make it a parameter, or leave rows with other values out.",
-        table.name, setting, fmt::join(values, ", ")));
+        setting, listed({values.begin(), values.end()})));
   }
-  if (!unknown_words.empty()) {
-    notes.push_back(
-        fmt::format("{}: {} says \"{}\", which is not taken for a failure. If it is one, write "
-                    "failed.",
-                    table.name, *columns.status, fmt::join(unknown_words, "\", \"")));
+  if (!read.unknown_words.empty()) {
+    note(
+        fmt::format("{} says \"{}\", which is not taken for a failure. If it is one, write failed.",
+                    *columns.status, listed(read.unknown_words, "\", \"")));
   }
 }
 
@@ -511,64 +325,114 @@ bool writes_decimal_commas(const Table& table) {
   });
 }
 
+/// The names by which results call the files, wherever they lie: that of the file, with folders
+/// before it where others are called so, too.
+Names short_names_of(const std::vector<fs::path>& files) {
+  Names names;
+  for (const fs::path& file : files) {
+    const auto ends_with = [](const fs::path& whole, const fs::path& end) {
+      const auto size = std::distance(end.begin(), end.end());
+      return std::distance(whole.begin(), whole.end()) >= size &&
+             std::equal(end.begin(), end.end(), std::prev(whole.end(), size));
+    };
+    fs::path name = file.filename();
+    for (fs::path left = file.parent_path(); left.has_filename(); left = left.parent_path()) {
+      if (std::ranges::count_if(files, [&](const auto& one) { return ends_with(one, name); }) < 2) {
+        break;
+      }
+      name = left.filename() / name;
+    }
+    names.push_back(name.string());
+  }
+  return names;
+}
+
+/// Tables, one after the other.
+class TablesReader {
+ public:
+  explicit TablesReader(const TableStudy& study) : study_(study), collector_(study) {}
+
+  /// @param name  by which the result calls it
+  void read(const fs::path& file, const std::string& name, NoRows no_rows) {
+    found_.texts.push_back(base::read_whole_file(file));
+    Table table = parse_table(file.string(), found_.texts.back(), no_rows);
+    found_.files.push_back(name);
+    std::vector<std::string> notes;
+    base::Faults faults;
+    take_names_without_units(wanted_columns(study_), table, notes, faults);
+    if (found_.columns.empty()) {
+      found_.columns = table.columns;
+      // Others than the usual ones are told by a line of their own, which rows have not.
+      found_.delimiter = table.delimiter == '|' ? ';' : table.delimiter;
+      found_.has_decimal_comma = writes_decimal_commas(table);
+    }
+    const PicturedCells pictured =
+        measure_pictured_cells(study_, file.parent_path(), table, faults);
+    notes.insert(notes.end(), pictured.notes.begin(), pictured.notes.end());
+    found_.texts.insert(found_.texts.end(), pictured.fingerprints.begin(),
+                        pictured.fingerprints.end());
+    take_rows_without_runs(study_, table, notes, faults);
+    RunRows read = run_rows(study_, table, faults);
+    faults.throw_if_any();
+    note_columns(table, read, notes);
+    notes.insert(notes.end(), read.notes.begin(), read.notes.end());
+    // Faults tell where the file is; the result is the same wherever it is.
+    const auto shorten = [&](std::string& text) {
+      if (text.starts_with(table.name)) text.replace(0, table.name.size(), name);
+    };
+    for (RunRow& row : read.rows) {
+      const auto sds = pictured.sds.find(row.line);
+      if (sds != pictured.sds.end()) row.own_sds = sds->second;
+      shorten(row.where);
+    }
+    std::ranges::for_each(notes, shorten);
+    notes_.insert(notes_.end(), notes.begin(), notes.end());
+    collector_.add(name, read.columns, std::move(read.rows));
+  }
+
+  /// What is in all of them together.
+  TableRuns take() {
+    TableRuns all = collector_.take();
+    constexpr int kMaxRows = 1000;
+    if (all.rows > kMaxRows) {
+      base::refuse(
+          fmt::format("{}", fmt::join(found_.files, ", ")),
+          fmt::format("has {} rows within the bounds; surfaces through more than {} take hours",
+                      all.rows, kMaxRows),
+          "put repeats together: their mean, with columns NAME_sd and n; or leave rows out.");
+    }
+    all.files = std::move(found_.files);
+    all.columns = std::move(found_.columns);
+    all.delimiter = found_.delimiter;
+    all.has_decimal_comma = found_.has_decimal_comma;
+    all.texts = std::move(found_.texts);
+    all.notes.insert(all.notes.begin(), notes_.begin(), notes_.end());
+    return all;
+  }
+
+ private:
+  const TableStudy& study_;
+  Collector collector_;
+  TableRuns found_;
+  std::vector<std::string> notes_;
+};
+
 }  // namespace
 
 TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesystem::path>& files,
                           NoRows no_rows) {
-  Collector collector(study);
+  TablesReader reader(study);
   base::Faults faults;
-  std::vector<std::string> notes;
-  TableRuns found;
-  for (const std::filesystem::path& file : files) {
+  const Names names = short_names_of(files);
+  for (std::size_t k = 0; k < files.size(); ++k) {
     try {
-      found.texts.push_back(base::read_whole_file(file));
-      Table table = parse_table(file.string(), found.texts.back(), no_rows);
-      found.files.push_back(file.filename().string());
-      base::Faults own;
-      take_names_without_units(wanted_columns(study), table, notes, own);
-      if (found.columns.empty()) {
-        found.columns = table.columns;
-        // Others than the usual ones are told by a line of their own, which rows have not.
-        found.delimiter = table.delimiter == '|' ? ';' : table.delimiter;
-        found.has_decimal_comma = writes_decimal_commas(table);
-      }
-      const PicturedCells pictured = measure_pictured_cells(study, file.parent_path(), table, own);
-      notes.insert(notes.end(), pictured.notes.begin(), pictured.notes.end());
-      found.texts.insert(found.texts.end(), pictured.fingerprints.begin(),
-                         pictured.fingerprints.end());
-      take_rows_without_runs(study, table, notes, own);
-      RowReader reader(study, table, own);
-      std::vector<Row> rows = reader.rows();
-      own.throw_if_any();
-      for (Row& row : rows) {
-        if (const auto of = pictured.sds.find(row.line); of != pictured.sds.end()) {
-          row.own_sds = of->second;
-        }
-      }
-      note_columns(table, reader.columns(), rows, reader.unknown_words(), notes);
-      collector.add(table.name, reader.columns(), rows);
+      reader.read(files[k], names[k], no_rows);
     } catch (const base::InputError& error) {
       faults.add_all(error.faults());
     }
   }
   faults.throw_if_any();
-  TableRuns made = collector.take();
-  constexpr int kMaxRows = 1000;
-  if (made.rows > kMaxRows) {
-    base::refuse(
-        fmt::format("{}", fmt::join(found.files, ", ")),
-        fmt::format("has {} rows within the bounds; surfaces through more than {} take "
-                    "hours",
-                    made.rows, kMaxRows),
-        "put repeats together: their mean, with columns NAME_sd and n; or leave rows out.");
-  }
-  made.files = std::move(found.files);
-  made.columns = std::move(found.columns);
-  made.delimiter = found.delimiter;
-  made.has_decimal_comma = found.has_decimal_comma;
-  made.texts = std::move(found.texts);
-  made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
-  return made;
+  return reader.take();
 }
 
 }  // namespace repose::calibrate

@@ -10,6 +10,9 @@
 
 namespace repose::calibrate {
 
+/// What became of a row's run.
+enum class RowEnd { reading, failed, nothing };
+
 /// What is in tables of runs.
 struct TableRuns {
   /// Of each reading by itself, which is its own experiment: a row gives a run of each that it has
@@ -21,7 +24,8 @@ struct TableRuns {
   std::vector<Offer> others;
   /// Of all rows within the bounds, whatever became of them.
   std::vector<std::vector<double>> places;
-  std::vector<std::string> files;    ///< without their folders
+  std::vector<RowEnd> ends;          ///< of each of these; with one reading that failed: failed
+  std::vector<std::string> files;    ///< without their folders, as far as names tell them apart
   std::vector<std::string> columns;  ///< of the first table
   char delimiter = ',';              ///< likewise
   bool has_decimal_comma = false;    ///< likewise: some number of its is written with one

@@ -12,6 +12,7 @@
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/result/result.h"
 #include "calibrate/run/run_study.h"
+#include "calibrate/runs/table_study.h"
 #include "calibrate/study/executor.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate_engine.h"
@@ -123,9 +124,12 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (has_engine(arguments)) return run_calibrate_engine(arguments);
   if (!arguments.runs.empty()) return run_calibrate_runs(arguments);
   if (!arguments.max_runs.empty()) {
-    print_line(
-        "--max-runs: is for studies with [engine]. Fix: leave it out; --budget limits "
-        "simulations.");
+    print_line(calibrate::is_table_study(arguments.study)
+                   ? "--max-runs: is for studies with [engine], whose command makes runs; this one "
+                     "has none. Fix: add it, or give runs with --runs."
+                   : "--max-runs: is for studies with [parameter] and [engine], whose runs another "
+                     "program makes; this one repose simulates itself. Fix: leave it out, and "
+                     "[engine] where there is one; --budget limits simulations.");
     return ExitCode::bad_input;
   }
   if (!arguments.rolling_models.empty()) return run_rolling_models(arguments);

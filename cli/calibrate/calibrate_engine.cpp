@@ -4,22 +4,17 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "base/input_error.h"
 #include "calibrate/engine/engine_study.h"
-#include "calibrate/result/result.h"
 #include "calibrate/run/run_study.h"
 #include "calibrate/runs/table_study.h"
-#include "calibrate/study/study_record.h"
-#include "cli/calibrate/calibrate_table.h"
+#include "cli/calibrate/calibrate_runs.h"
 #include "cli/common/option_value.h"
 #include "cli/common/table.h"
 #include "cli/common/terminal.h"
@@ -79,6 +74,11 @@ calibrate::EngineRequest request_of(const CalibrateArguments& arguments,
   return request;
 }
 
+std::string run_time_text(double seconds) {
+  constexpr double kFew_s = 10;
+  return seconds < kFew_s ? fmt::format("{:.2g} s", seconds) : time_text(seconds);
+}
+
 std::string forecast_text(const calibrate::EngineForecast& forecast, int jobs, int columns) {
   Page page(columns);
   page.add(fmt::format("Runs made: {}, of which {} failed; at most {} will be made.", forecast.made,
@@ -91,9 +91,9 @@ std::string forecast_text(const calibrate::EngineForecast& forecast, int jobs, i
   } else if (forecast.next > 0) {
     page.add(fmt::format(
         "A run took {} on average: {} for the next ones, at most {} for all, with --jobs {}.",
-        time_text(*forecast.run_s),
-        time_text(*forecast.run_s * std::ceil(static_cast<double>(forecast.next) / jobs)),
-        time_text(*forecast.run_s * std::ceil(static_cast<double>(left) / jobs)), jobs));
+        run_time_text(*forecast.run_s),
+        run_time_text(*forecast.run_s * std::ceil(static_cast<double>(forecast.next) / jobs)),
+        run_time_text(*forecast.run_s * std::ceil(static_cast<double>(left) / jobs)), jobs));
   }
   page.add("Nothing was made or saved.");
   return page.text();
@@ -106,20 +106,6 @@ bool has_engine(const CalibrateArguments& arguments) {
   return calibrate::read_table_study(arguments.study, arguments.settings).engine.has_value();
 }
 
-void refuse_simulations(const CalibrateArguments& arguments, const char* what,
-                        std::vector<std::string>& errors) {
-  const CalibrateArguments usual;
-  const auto refuse = [&](bool is_given, const char* option) {
-    if (!is_given) return;
-    errors.push_back(
-        fmt::format("{}: is of simulations, and with {} none is made. Fix: leave one of them out.",
-                    option, what));
-  };
-  refuse(arguments.budget != usual.budget, "--budget");
-  refuse(arguments.method != usual.method, "--method");
-  refuse(!arguments.rolling_models.empty(), "--rolling-models");
-}
-
 ExitCode run_calibrate_engine(const CalibrateArguments& arguments) {
   std::vector<std::string> errors;
   refuse_simulations(arguments, "[engine]", errors);
@@ -127,16 +113,11 @@ ExitCode run_calibrate_engine(const CalibrateArguments& arguments) {
   if (arguments.is_dry_run && !arguments.json_file.empty()) {
     errors.emplace_back("--dry-run: gives no results for --json. Fix: leave one of them out.");
   }
-  std::vector<std::filesystem::path> read = request.runs;
-  read.push_back(request.study);
-  for (const char* name : {calibrate::kStudyCopy, calibrate::kNotesFile, calibrate::kResultFile}) {
-    read.push_back(request.folder / name);
-  }
-  check_output_places({json_place(arguments.json_file, "\"hash\"")}, read, errors);
+  check_json_place(arguments, request.folder, errors);
   print_lines(errors);
   if (!errors.empty()) return ExitCode::bad_input;
-  Outputs outputs;
   if (arguments.is_dry_run) {
+    Outputs outputs;
     outputs.show(forecast_text(forecast_of(request), request.jobs, columns_of(stdout)));
     outputs.write();
     return ExitCode::done;
@@ -158,10 +139,7 @@ ExitCode run_calibrate_engine(const CalibrateArguments& arguments) {
         (request.folder / "runs").string()));
     return ExitCode::interrupted;
   }
-  outputs.add(arguments.json_file, to_json(*result));
-  outputs.show(joint_table(std::get<calibrate::JointResult>(result->found), result->provenance,
-                           columns_of(stdout)));
-  outputs.write();
+  show_fit(arguments, *result);
   return ExitCode::done;
 }
 

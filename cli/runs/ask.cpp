@@ -49,10 +49,12 @@ std::string table_of(const calibrate::TableStudy& study, const calibrate::NextRu
     page.add(table);
     page.add_gap();
     page.add(
-        fmt::format("{} runs, in {}: make them, fill in the readings, and give both tables "
-                    "with --runs.",
-                    next.runs.size(), file));
+        fmt::format("{} run{}, in {}: make {}, fill in the readings, and give both tables with "
+                    "--runs.",
+                    next.runs.size(), next.runs.size() == 1 ? "" : "s", file,
+                    next.runs.size() == 1 ? "it" : "them"));
   }
+  if (!next.left_out.empty()) page.add(next.left_out);
   for (const std::string& line : next.settled) page.add(line);
   return page.text();
 }

@@ -85,6 +85,14 @@ TEST_F(ChildProcessTest, EndsWithAllThatItStarted) {
                 ThrowsMessage<InputError>(HasSubstr("still running")));
   }
   EXPECT_TRUE(is_free_soon());
+  {
+    // In a session of its own, and of a parent that has gone.
+    const ChildProcess process(shell("setsid sleep 300 & (setsid sleep 300 &); sleep 300"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  EXPECT_TRUE(is_free_soon());
+  end_of("(setsid sleep 300 &); exit 0");
+  EXPECT_TRUE(is_free_soon());
   ChildProcess asked(shell("sleep 300"));
   asked.ask_to_end();
   EXPECT_EQ(wait_for(asked).signal, SIGTERM);

@@ -214,6 +214,75 @@ TEST_F(EngineStudyTest, TakesRunsOfATableAndChangedRows) {
               ThrowsMessage<base::InputError>(HasSubstr("Did you mean fricton?")));
 }
 
+TEST_F(EngineStudyTest, RunsOfMoreParametersAreThoseOfAnotherStudy) {
+  const std::string two = std::string(kStudy).replace(std::string(kStudy).find("[measured]"), 0,
+                                                      "rolling = { min = 0, max = 0.3 }\n");
+  write("study.toml", two);
+  EngineRequest few = request();
+  few.max_runs = 9;
+  calibrated(few);
+  write("study.toml", kStudy);
+  EXPECT_THAT([&] { calibrated(request()); },
+              ThrowsMessage<base::InputError>(
+                  AllOf(HasSubstr("another study: they have a parameter rolling"),
+                        HasSubstr("--out"), HasSubstr("put the parameter back"))));
+  write("study.toml", two);
+  EXPECT_EQ(facts(calibrated(few)).runs, 9);
+}
+
+TEST_F(EngineStudyTest, ScriptsWithQuotedNamesAreWatched) {
+  const std::string study = std::string(kStudy).replace(std::string(kStudy).find("sh run.sh"), 9,
+                                                        "PART='my script.sh'; sh 'my script.sh'");
+  write("study.toml", study);
+  write("my script.sh", kRead + std::string(kAngle) + kWrite);
+  EngineRequest few = request();
+  few.max_runs = 6;
+  calibrated(few);
+  EXPECT_THAT(text("out/runs/run_001/run.json"), HasSubstr("\"my script.sh\": "));
+  write("my script.sh", std::string(kRead) + kAngle + kWrite + "# changed\n");
+  calibrated(few);
+  EXPECT_THAT(notes_, Contains(HasSubstr("have changed since 6 of the runs were made")));
+}
+
+TEST_F(EngineStudyTest, TheResultIsTheSameInAnyFolder) {
+  script(fmt::format("{}[ $seed = 4 ] && exit 1\n{}", kAngle, kWrite));
+  EngineRequest few = request();
+  few.max_runs = 7;
+  calibrated(few);
+  script(fmt::format("{}[ $seed = 4 ] && exit 2\n{}", kAngle, kWrite));
+  calibrated(few);
+  const std::string result = text("out/result.json");
+  EXPECT_THAT(result, HasSubstr("have changed since 7"));
+  EXPECT_THAT(result, Not(HasSubstr(place_.filename().string().substr(0, 4))));
+  fs::rename(place_ / "out", place_ / "another name");
+  few.folder = place_ / "another name";
+  calibrated(few);
+  EXPECT_TRUE(text("another name/result.json") == result);
+}
+
+TEST_F(EngineStudyTest, RunsThatFailedAreMadeAgainOnceTheirStatusIsEmptied) {
+  script(fmt::format("{}[ $seed -lt 7 ] && [ $seed -gt 3 ] && exit 1\n{}", kAngle, kWrite));
+  EngineRequest few = request();
+  few.max_runs = 6;
+  EXPECT_THAT(error_of([&] { calibrated(few); }),
+              AllOf(HasSubstr("has readings at 3 different places"), HasSubstr("--max-runs"),
+                    HasSubstr("3 of 6 failed"), HasSubstr("status is emptied in runs/runs.csv")));
+  script(std::string(kAngle) + kWrite);
+  few.max_runs = 9;
+  const StudyResult result = calibrated(few);
+  EXPECT_EQ(facts(result).failed, 3);
+  EXPECT_THAT(std::get<JointResult>(result.found).warnings,
+              Contains(HasSubstr("3 of them failed: those whose status is emptied in")));
+  std::string table = text("out/runs/runs.csv");
+  for (std::size_t at = 0; (at = table.find(",failed,")) != std::string::npos;) {
+    table.replace(at, 8, ",,");
+  }
+  write("out/runs/runs.csv", table);
+  const StudyResult again = calibrated(few);
+  EXPECT_EQ(facts(again).failed, 0);
+  EXPECT_EQ(facts(again).runs, 9);
+}
+
 TEST_F(EngineStudyTest, OtherNumbersAreColumns) {
   script(
       fmt::format("{}echo \"{{\\\"aor\\\": $angle, \\\"zeta\\\": $seed, \\\"beta\\\": $seed, "
@@ -310,6 +379,38 @@ TEST_F(OneRunTest, FailsWithTheReason) {
   EXPECT_THAT(failure_of_reading(R"({"aor": 27, "status": "perhaps"})"),
               HasSubstr("neither ok nor failed"));
   EXPECT_THAT(failure_of_reading(R"({"aor": 27, "n": 2.5, "aor_sd": 1})"), HasSubstr("n is 2.5"));
+}
+
+TEST_F(OneRunTest, SaysHowAReadingIsToBeWritten) {
+  EXPECT_THAT(failure_of_reading(R"({"aor": "21,5"})"),
+              AllOf(HasSubstr("with a decimal comma"), HasSubstr("write 21.5")));
+  EXPECT_THAT(failure_of_reading(R"({"aor": "21.5"})"), HasSubstr("a number as text: write 21.5"));
+  EXPECT_THAT(failure_of_reading(R"({"aor": 21,5})"),
+              AllOf(HasSubstr("is no JSON"), HasSubstr("write 21.5")));
+  EXPECT_THAT(failure_of_reading(R"({"aor": 400})"),
+              AllOf(HasSubstr("readings are from 0 to 90"), Not(HasSubstr("NaN"))));
+  EXPECT_THAT(failure_of_reading(R"({"aor": 21, "x": {"aor": 3}, "aor": 25})"),
+              HasSubstr("has aor twice"));
+  EXPECT_THAT(failure_of_reading(R"({"aor": 21, "x": {"aor": 3}})"), IsEmpty());
+}
+
+TEST_F(OneRunTest, TakesFilesOfItsFolderOnly) {
+  write("heap.png", "not seen");
+  for (const std::string name : {"../../../heap.png", "./x/../../heap.png", "/etc/hostname"}) {
+    EXPECT_THAT(failure_of_reading(R"({"aor": ")" + name + "\"}"),
+                HasSubstr("which is not in the run's folder"))
+        << name;
+  }
+  EXPECT_THAT(failure("cat > \"$folder/reading.json\" <<'END'\n{\"aor\": \"heap.png\"}\nEND\n"
+                      ": > \"$folder/heap.png\"\n"),
+              HasSubstr("heap.png, which is empty"));
+}
+
+TEST_F(OneRunTest, WhoseFolderIsDeletedHasFailed) {
+  EXPECT_THAT(failure("rm -r \"$folder\"\n"),
+              AllOf(HasSubstr("run_001 failed"), HasSubstr("deleted its run's folder"),
+                    Not(HasSubstr("printed nothing"))));
+  EXPECT_THAT(text("out/runs/run_001/ended.json"), HasSubstr("deleted its run's folder"));
 }
 
 TEST_F(OneRunTest, IsEndedWhenItTakesTooLong) {

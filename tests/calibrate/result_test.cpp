@@ -382,7 +382,7 @@ TEST(SummarySentences, BeginWithWhatWasPredictedAndSayThatOnlyWholeSetsFit) {
   joint.verdict = AgreementVerdict::disagrees;
   EXPECT_THAT(summary_sentences(joint),
               ::testing::ElementsAre(HasSubstr("Do not use these coefficients"),
-                                     "All 2 coefficients are determined by these measurements."));
+                                     "Both coefficients are determined by these measurements."));
 }
 
 TEST(GoodSets, BeginWithTheFittedValues) {

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,7 +16,6 @@
 #include "base/units.h"
 #include "calibrate/fit/surrogate.h"
 #include "calibrate/report/study_report.h"
-#include "calibrate/runs/odd_readings.h"
 #include "calibrate/runs/table_runs.h"
 #include "calibrate/runs/table_study.h"
 #include "calibrate/study/study_record.h"
@@ -336,43 +334,6 @@ TEST_F(TableRunsTest, UnitsBehindNamesAreNoPartOfThem) {
   EXPECT_THAT(fault_of_runs(angle, "sliding friction [-],y [deg],y [rad]\n0.1,24,0.4\n"),
               HasSubstr("has no column y"))
       << "it may be either";
-}
-
-/// The table's rows with one cell changed.
-std::string with_cell(const std::string& rows, int line, int column, const std::string& value) {
-  std::istringstream lines(rows);
-  std::string text, row;
-  for (int at = 1; std::getline(lines, row); ++at) {
-    std::istringstream cells(row);
-    std::string cell, changed;
-    for (int place = 0; std::getline(cells, cell, ','); ++place) {
-      changed += (place == 0 ? "" : ",") + (at == line && place == column ? value : cell);
-    }
-    text += changed + '\n';
-  }
-  return text;
-}
-
-using OddReadings = TableTest;
-
-TEST_F(OddReadings, ASlipIsNamedWithItsRow) {
-  const TableStudy of = study(test::made_up_study(test::kMeasuredDensity));
-  constexpr int kLine = 9, kAngle = 3, kDensity = 5;
-  const std::string rows = test::made_up_rows({.rows = 24});
-  const auto odd = [&](const std::string& text) {
-    const TableRuns table = runs(of, text);
-    return odd_readings(problem_of(of, table), table);
-  };
-  EXPECT_THAT(odd(rows), IsEmpty());
-  const auto slip = odd(with_cell(rows, kLine, kAngle, "71.6"));
-  ASSERT_EQ(slip.size(), 1U);
-  EXPECT_THAT(slip[0].text(), AllOf(HasSubstr("angle = 71.6 in "), HasSubstr("runs.csv:9, where")));
-  EXPECT_LT(slip[0].expected.high, 40);
-  const std::string two = with_cell(with_cell(rows, kLine, kDensity, "8123"), 15, kDensity, "7987");
-  EXPECT_EQ(odd(two).size(), 2U) << "they do not hide each other";
-  const auto joint = std::get<JointResult>(fit_table(of, runs(of, two)).found);
-  EXPECT_THAT(joint.warnings, Contains(AllOf(HasSubstr("density = 8123 in "), HasSubstr(":9, "),
-                                             HasSubstr("It counts"))));
 }
 
 TEST_F(TableFitTest, OneAngleLeavesARidge) {

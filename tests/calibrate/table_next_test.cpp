@@ -141,6 +141,59 @@ TEST_F(NextRunsTest, GoWhereParametersFit) {
   EXPECT_THAT(next.runs.front().reason, HasSubstr("angle is known to ±"));
 }
 
+/// A program that fails where sliding is above .45, asked round by round.
+TEST_F(NextRunsTest, KeepAwayFromWhereRunsFail) {
+  const TableStudy of =
+      study(std::string(test::kMadeUpParameters) +
+            "[measured]\nangle = { mean = 20, sd = 0.2, n = 1, unit = \"deg\" }\n");
+  std::string rows = "sliding,rolling,restitution,angle,status\n";
+  int failed_later = 0;
+  std::string left_out;
+  for (int round = 0; round < 4; ++round) {
+    TableRuns there;
+    if (round > 0) there = runs(of, rows);
+    const NextRuns next = next_runs(of, there, 12);
+    if (round > 0) left_out = next.left_out;
+    for (const NextRun& run : next.runs) {
+      const bool fails = run.values[0] > .45;
+      failed_later += fails && round > 0 ? 1 : 0;
+      rows +=
+          fmt::format("{},{},{},{},{}\n", run.values[0], run.values[1], run.values[2],
+                      fails ? "" : fmt::format("{}", test::angle_of(run.values[0], run.values[1])),
+                      fails ? "failed" : "ok");
+    }
+  }
+  EXPECT_THAT(rows, HasSubstr("failed")) << "the start knows nothing";
+  EXPECT_LE(failed_later, 8) << "of 36: they find the border";
+  EXPECT_THAT(left_out, HasSubstr("of where the parameters may fit: more runs near there failed"));
+}
+
+TEST_F(NextRunsTest, OneFailureAmongOthersLeavesLittleOut) {
+  const TableStudy of =
+      study("[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 3, sd = 1, n = 4 }\n");
+  std::string rows = "x,y\n";
+  for (int k = 0; k <= 8; ++k) rows += fmt::format("{},{}\n", k / 8., k == 4 ? "failed" : "3");
+  const NextRuns next = next_runs(of, runs(of, "x,y\n0,1\n0.5,failed\n1,5\n"), 4);
+  for (const NextRun& run : next.runs) EXPECT_GT(std::abs(run.values[0] - .5), .2);
+  EXPECT_THAT(next.left_out, IsEmpty()) << "too few for a fit: nothing is known to fit";
+  const NextRuns among = next_runs(of, runs(of, rows), 4);
+  EXPECT_THAT(among.left_out, IsEmpty()) << "seven runs beside it did not fail";
+}
+
+TEST_F(NextRunsTest, WhereAllFitsFailNoneIsAskedFor) {
+  const TableStudy of = study(
+      "[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 9, sd = 0.1, n = 9 }\n");
+  std::string rows = "x,y\n";
+  for (int k = 0; k <= 20; ++k) {
+    rows += fmt::format("{},{}\n", k / 20.,
+                        k > 14 ? std::string("failed") : fmt::format("{}", k / 2. + .3 * (k % 2)));
+  }
+  const NextRuns next = next_runs(of, runs(of, rows), 8);
+  EXPECT_THAT(next.runs, IsEmpty());
+  EXPECT_THAT(next.settled, ::testing::ElementsAre(HasSubstr("where parameters fit, runs fail")));
+  EXPECT_THAT(next.left_out, HasSubstr("100 %"));
+}
+
 TEST_F(NextRunsTest, StopWhereFurtherOnesWouldNotNarrow) {
   const TableStudy of = study(std::string(test::kMadeUpParameters) +
                               "[measured]\nangle = { mean = 20, sd = 4, n = 1, unit = \"deg\" }\n");

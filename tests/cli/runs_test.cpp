@@ -179,6 +179,11 @@ TEST_F(EngineCommands, RefuseOptionsThatDoNothing) {
       run_repose(folder_, {"calibrate", "table.toml", "--runs", "runs.csv", "--max-runs", "9"});
   EXPECT_EQ(table.exit_code, 2);
   EXPECT_THAT(table.err, HasSubstr("--max-runs: is of runs that are to be made"));
+  folder_.write("own.toml", std::string("[particle]\nsize_mm = 5\n[engine]\ncommand = \"x\"\n"));
+  const Finished own = run_repose(folder_, {"calibrate", "own.toml", "--max-runs", "9"});
+  EXPECT_EQ(own.exit_code, 2);
+  EXPECT_THAT(own.err, AllOf(HasSubstr("is for studies with [parameter] and [engine]"),
+                             HasSubstr("this one repose simulates itself")));
 }
 
 TEST_F(EngineKilled, CtrlCEndsTheProgramsAndTheSameCommandGoesOn) {
@@ -188,6 +193,11 @@ TEST_F(EngineKilled, CtrlCEndsTheProgramsAndTheSameCommandGoesOn) {
   EXPECT_FALSE(base::is_in_use(output_)) << "the program of the run is still there";
   EXPECT_FALSE(exists("study_calibration/result.json"));
   EXPECT_THAT(text("study_calibration/runs/runs.csv"), HasSubstr(",3,ok,"));
+  EXPECT_EQ(run_repose(folder_, {"report", "study_calibration"}).exit_code, 0);
+  EXPECT_THAT(
+      text("study_calibration/report.html"),
+      AllOf(HasSubstr("3 runs were made by another program, of which 0 failed, and 3"),
+            HasSubstr("study.toml --out study_calibration"), HasSubstr("Aor against friction")));
   folder_.write("go", std::string());
   EXPECT_EQ(run({}).exit_code, 0);
   std::filesystem::rename(path("study_calibration"), path("parts"));

@@ -196,17 +196,6 @@ void check_single_column(const Table& table) {
   }
 }
 
-/// "1.012", "12.345.678": a number, or perhaps a thousand times as much.
-bool may_have_thousands(std::string_view cell, char mark) {
-  // Most cells end otherwise, and a pattern takes long in a table of a million.
-  constexpr std::size_t kEnd = 4;  // ".012"
-  const std::size_t last = cell.rfind(mark);
-  if (last == cell.npos || last + kEnd != cell.size()) return false;
-  static const std::regex kPoints("[+-]?[1-9][0-9]{0,2}(\\.[0-9]{3})+");
-  static const std::regex kCommas("[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+");
-  return std::regex_match(cell.begin(), cell.end(), mark == '.' ? kPoints : kCommas);
-}
-
 std::optional<double> without(std::string_view cell, char mark) {
   std::string digits(cell);
   std::erase(digits, mark);
@@ -410,6 +399,16 @@ std::optional<double> number_of(std::string_view cell) {
   const auto [stopped_at, error] = std::from_chars(start, end, number);
   if (error != std::errc{} || stopped_at != end || !std::isfinite(number)) return std::nullopt;
   return number;
+}
+
+bool may_have_thousands(std::string_view cell, char mark) {
+  // Most cells end otherwise, and a pattern takes long in a table of a million.
+  constexpr std::size_t kEnd = 4;  // ".012"
+  const std::size_t last = cell.rfind(mark);
+  if (last == cell.npos || last + kEnd != cell.size()) return false;
+  static const std::regex kPoints("[+-]?[1-9][0-9]{0,2}(\\.[0-9]{3})+");
+  static const std::regex kCommas("[+-]?[1-9][0-9]{0,2}(,[0-9]{3})+");
+  return std::regex_match(cell.begin(), cell.end(), mark == '.' ? kPoints : kCommas);
 }
 
 std::set<int> unclear_lines(const Table& table, std::span<const NumberColumn> columns) {

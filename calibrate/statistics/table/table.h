@@ -65,6 +65,9 @@ std::string csv_text(const Table& table);
 /// A cell as a finite number, with a decimal point or comma; none if it is not one.
 std::optional<double> number_of(std::string_view cell);
 
+/// "1.012", "12.345.678" of the mark '.': a number, or perhaps a thousand times as much.
+bool may_have_thousands(std::string_view cell, char mark);
+
 /// The lines on which `numbers_of` has something to say of a cell.
 std::set<int> unclear_lines(const Table& table, std::span<const NumberColumn> columns);
 
