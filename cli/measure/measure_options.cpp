@@ -260,8 +260,8 @@ Hints: if the heap is not found, mark where it is. --heap alone is often enough;
 --ground is needed if the foot is hidden. Positions are in pixels from the
 picture's top left corner, once --rotate has turned it. --save-hints saves them,
 with --exclude, --pitch-deg and what gives millimetres, in PICTURE.repose.toml,
-which is read whenever PICTURE is measured again. For a refused picture, hints are tried and the best
-one is suggested.
+which is read whenever PICTURE is measured again. For a refused picture, hints
+are tried and the best one is suggested.
 
 Sizes: with a board (repose board) upright beside the heap and in the plane of
 its middle, or with --scale of two points in that plane, heights and widths are
