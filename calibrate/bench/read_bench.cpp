@@ -190,6 +190,13 @@ void check_medium(const dem::Study& study, const dem::StudyExperiment& described
                           entry.name)});
 }
 
+/// What is wrong with the first of pictures that are all refused.
+std::string why_first(const std::vector<PictureReading>& pictures) {
+  if (pictures.empty()) return {};
+  const PictureReading& first = pictures.front();
+  return fmt::format("; {}: {}", first.file.filename().string(), first.reason);
+}
+
 std::vector<PictureReading> measure_heaps(const dem::Study& study, Findings& findings) {
   const auto heap = study.experiments.find(&dem::pictured_experiment());
   if (heap == study.experiments.end()) return {};
@@ -208,10 +215,11 @@ std::vector<PictureReading> measure_heaps(const dem::Study& study, Findings& fin
   findings.faults.require(
       any || !findings.faults.empty(),
       {.where = study.file.string(),
-       .value = fmt::format("none of the {} {} of the heap could be measured", files.size(),
+       .value = fmt::format("none of the {} {} of the heap could be measured{}", files.size(),
                             !bench.scans.empty()    ? "scans"
                             : !bench.videos.empty() ? "films"
-                                                    : "pictures"),
+                                                    : "pictures",
+                            why_first(pictures)),
        .fix = "check them with repose measure --overlay, or give the angles as values."});
   return pictures;
 }

@@ -372,7 +372,8 @@ TEST_F(Calibrate, PicturesWithoutAHeapAreNoMeasurement) {
   const Finished refused =
       run({"study.toml", "--set", "experiment.heap.measured = { pictures = [\"blank.png\"] }"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("none of the 1 pictures of the heap could be measured"));
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("none of the 1 pictures of the heap could be measured"),
+                                 HasSubstr("blank.png: no heap stands out")));
 }
 
 TEST_F(Calibrate, PicturesAreReadByTheDefinitionOfTheStudy) {
