@@ -243,6 +243,7 @@ void check_options_of_drawn(const CompareArguments& arguments, ComparePlan& plan
     if (!boxes[i]->empty()) refuse(kExcludeOptions[i]);
     const bool is_other_drawn = plan.sources[1 - i].is_drawn();
     for (const auto& [option, text] : {std::pair{"--mm-per-px", &arguments.mm_per_px},
+                                       std::pair{"--base-mm", &arguments.base_mm},
                                        std::pair{"--pitch-deg", &arguments.pitch_deg}}) {
       const bool is_for_both = text->find(',') != std::string::npos;
       if (!text->empty() && (is_for_both || is_other_drawn)) refuse(option);

@@ -104,6 +104,8 @@ TEST_F(CompareScans, OptionsOfPicturesAreRefused) {
   EXPECT_THAT(done.err, AllOf(HasSubstr("--camera-mm 900,40"), HasSubstr("seen as from far away"),
                               HasSubstr("--exclude-first: scans is scanned"),
                               HasSubstr("--pitch-deg: scans is scanned")));
+  EXPECT_THAT(run({"scans/a.ply", "scans/b.ply", "--base-mm", "210"}).err,
+              HasSubstr("--base-mm: scans/a.ply is scanned"));
 }
 
 }  // namespace
