@@ -1,5 +1,5 @@
 // Draws the figures of docs/tutorial.md from a sample photograph, and those of docs/measuring.md
-// from drawn heaps, as repose measure --overlay draws them:
+// from drawn silhouettes and a drawn photograph, as repose measure --overlay draws them:
 //
 // take_figures PHOTOGRAPH FOLDER           writes them
 // take_figures PHOTOGRAPH FOLDER --check   compares them with those that are there
@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/heap_picture.h"
+#include "tests/support/hollow_conditions.h"
 #include "vision/drawing/overlay.h"
 #include "vision/measure/hints.h"
 #include "vision/measure/repose_angle.h"
@@ -68,6 +70,17 @@ vision::Picture heap_with_apron(double apron) {
   return picture;
 }
 
+/// A drawn photograph of a heap seven grains high, of which a layer of one or two has run out.
+vision::Picture photograph_with_apron() {
+  testing::HeapScene scene = testing::hollow_apron(1);
+  scene.form.grains_high = 7;
+  scene.form.left_rad = scene.form.right_rad = .5;
+  const vision::Picture whole = testing::draw_heap(scene).picture;
+  return vision::part_of(
+      whole,
+      {.x = 0, .y = whole.height / 3, .width = whole.width, .height = whole.height * 11 / 20});
+}
+
 /// How much they differ on average, in grey levels; other libraries round a pixel here and there.
 double difference(const fs::path& one, const fs::path& other) {
   const vision::Picture a = vision::read_picture(one), b = vision::read_picture(other);
@@ -119,6 +132,7 @@ bool take(const vision::Picture& photograph, const fs::path& folder, bool only_c
   }
   finish("short_apron.jpg", heap_with_apron(.15));
   finish("long_apron.jpg", heap_with_apron(.8));
+  finish("apron.jpg", photograph_with_apron());
   return is_good;
 }
 

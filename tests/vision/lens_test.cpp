@@ -58,6 +58,25 @@ TEST(Lens, CorrectedAndSeenAreEachOthersInverse) {
   }
 }
 
+TEST(Lens, OfATurnedPictureSeesWhatItSawWhereItWasTurnedTo) {
+  const Lens lens = barrel();
+  const auto to = [&](Point place, int turn_deg) -> Point {
+    if (turn_deg == 90) return {lens.height - place.y, place.x};
+    if (turn_deg == 180) return {lens.width - place.x, lens.height - place.y};
+    return {place.y, lens.width - place.x};
+  };
+  for (const int turn_deg : {90, 180, 270}) {
+    const Lens upright = turned(lens, turn_deg);
+    EXPECT_EQ(upright.width, turn_deg == 180 ? lens.width : lens.height);
+    for (const Point place : {Point{0, 0}, Point{1200, 30}, Point{300, 700}}) {
+      const Point expected = to(lens.corrected(place), turn_deg);
+      const Point corrected = upright.corrected(to(place, turn_deg));
+      EXPECT_NEAR(corrected.x, expected.x, 1e-6) << turn_deg;
+      EXPECT_NEAR(corrected.y, expected.y, 1e-6) << turn_deg;
+    }
+  }
+}
+
 TEST(Lens, TheCorrectedPictureShowsTheBoardAsALensWithoutDistortionDoes) {
   const Lens lens = barrel();
   const auto place = testing::placed_board({60, 20, 420}, .2, .1, .1);

@@ -162,6 +162,28 @@ TEST(SizedHeap, ABoardBehindTheHeapIsAllowedForByPerspective) {
   EXPECT_THROW(measure_sized_heap(picture, kIsHeap, no_lens), base::InputError);
 }
 
+TEST(SizedHeap, TheLensOfAPictureThatLayOnItsSideIsTurnedWithIt) {
+  Stage stage;
+  stage.camera.centre_x_px = 470;
+  stage.camera.centre_y_px = 330;
+  stage.camera.k1 = -.1;
+  const Picture picture = stage.picture_with_board();
+  const auto measured = [&](const Lens& lens, int turn_deg) {
+    MeasureOptions options = kIsHeap;
+    options.hints.turn_deg = turn_deg;
+    return measure_sized_heap(picture, options, {.lens = lens, .finds_board = true, .scale = {}});
+  };
+  const SizedHeap upright = measured(stage.lens(), 0);
+  ASSERT_TRUE(upright.board && upright.board->pitch_rad) << upright.angle.reason;
+  for (const int turn_deg : kTurns_deg) {
+    const SizedHeap heap = measured(turned(stage.lens(), 360 - turn_deg), turn_deg);
+    ASSERT_TRUE(heap.board && heap.board->pitch_rad) << turn_deg;
+    EXPECT_NEAR(heap.board->pitch_rad->value, upright.board->pitch_rad->value, 1e-6) << turn_deg;
+    EXPECT_NEAR(heap.sizes.base_mm->value, upright.sizes.base_mm->value, 1e-3) << turn_deg;
+    EXPECT_NEAR(*heap.angle.angle_rad, *upright.angle.angle_rad, 1e-6) << turn_deg;
+  }
+}
+
 TEST(SizedHeap, WithoutALensABoardGivesAScaleAndSaysWhatIsMissing) {
   const Stage stage;
   const SizedHeap heap = measure_sized_heap(stage.picture_with_board(), kIsHeap,

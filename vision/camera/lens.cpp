@@ -124,6 +124,22 @@ Lens lens_for(const Lens& lens, int width, int height) {
   return scaled;
 }
 
+Lens turned(const Lens& lens, int clockwise_deg) {
+  Lens upright = lens;
+  for (int turn_deg = 0; turn_deg < clockwise_deg; turn_deg += 90) {
+    const Lens before = upright;
+    upright.width = before.height;
+    upright.height = before.width;
+    upright.centre_x_px = {before.height - before.centre_y_px.value,
+                           before.centre_y_px.uncertainty};
+    upright.centre_y_px = before.centre_x_px;
+    // Of Lens's two equations with (-y', x') for (x', y'); the radial part is the same all around.
+    upright.p1 = before.p2;
+    upright.p2 = {-before.p1.value, before.p1.uncertainty};
+  }
+  return upright;
+}
+
 LensCorrection::LensCorrection(const Lens& lens) {
   if (!lens.is_distorted()) return;
   cv::initUndistortRectifyMap(matrix_of(lens), distortion_of(lens), cv::noArray(), matrix_of(lens),

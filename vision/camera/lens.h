@@ -51,6 +51,10 @@ struct Lens {
 /// @throws base::InputError  the size is no such multiple: cropped, or turned.
 Lens lens_for(const Lens& lens, int width, int height);
 
+/// The same lens in pictures that were turned clockwise after they were taken, by a multiple of 90
+/// degrees: what lay at (x, y) of a picture `height` high lies at (height - y, x) for each 90.
+Lens turned(const Lens& lens, int clockwise_deg);
+
 /// The corrected picture, as large as the picture: its middle stays, straight lines are straight.
 Picture corrected_picture(const Picture& picture, const Lens& lens);
 

@@ -184,7 +184,8 @@ SizedHeap measure_sized_heap(const Picture& picture, const MeasureOptions& optio
   SizedHeap heap;
   heap.options = options;
   if (scale.lens) {
-    heap.lens = lens_for(*scale.lens, picture.width, picture.height);
+    heap.lens =
+        lens_for(turned(*scale.lens, options.hints.turn_deg), picture.width, picture.height);
     if (heap.lens->is_distorted()) {
       heap.corrected = corrected_picture(picture, *heap.lens);
       heap.options = corrected_options(options, *heap.lens);

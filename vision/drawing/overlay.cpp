@@ -295,6 +295,17 @@ void label_flank(const Canvas& canvas, const Lettering& lettering, const Flank& 
              flank.is_left, flank.colour);
 }
 
+/// The other reading of a side with an apron: its line if the apron counted in full.
+void draw_apron(const Canvas& canvas, const Lettering& lettering, const FlankApron& apron,
+                bool is_left) {
+  constexpr double kShortDash = 0.006, kBelow = 0.07;
+  const FlankLine line = flank_line(canvas, apron.line_with, is_left);
+  canvas.draw_dashed({line.low, line.high}, line.colour, 0.5, kShortDash);
+  draw_label(canvas, lettering,
+             fmt::format("{:.1f}° with its apron", to_degrees(apron.angle_with_rad)),
+             line.low + cv::Point2d(0, canvas.length(kBelow)), !is_left, line.colour);
+}
+
 void draw_ground(const Canvas& canvas, const Segment& ground) {
   const cv::Point2d from = canvas.at(ground.from), to = canvas.at(ground.to);
   const cv::Point2d beyond = 0.04 * (to - from);
@@ -319,6 +330,9 @@ void draw_marks(cv::Mat& image, double scale, const ReposeAngle& measured,
   }
   for (const auto& [flank, line] : flanks)
     draw_line(canvas, line, measured.ground, flank->angle_rad.has_value());
+  for (const auto& [flank, line] : flanks) {
+    if (flank->apron) draw_apron(canvas, lettering, *flank->apron, line.is_left);
+  }
   for (const auto& [flank, line] : flanks) label_flank(canvas, lettering, *flank, line);
 }
 

@@ -293,7 +293,9 @@ bool FilmReader::next(FilmFrame& frame) {
     turn(seen_, turn_deg_, frame.bgr);
   }
   if (!lens_) return true;
-  if (!correction_) correction_.emplace(lens_for(*lens_, frame.bgr.cols, frame.bgr.rows));
+  if (!correction_) {
+    correction_.emplace(lens_for(turned(*lens_, turn_deg_), frame.bgr.cols, frame.bgr.rows));
+  }
   cv::swap(seen_, frame.bgr);
   correction_->correct(seen_, frame.bgr);
   return true;

@@ -279,7 +279,8 @@ void add_apron(FlankFit& fit, const Descent& d, const Stretch& w, double crest, 
   fit.apron = Apron{.from = from,
                     .length = d.u.back() - d.u[start],
                     .is_high = from > kHighestApron && d.smooth[start] > kThinGrains * fit.grain,
-                    .angle_with_rad = with.angle_rad};
+                    .angle_with_rad = with.angle_rad,
+                    .line_with = with.shown};
   fit.window_from = std::max(fit.window_from, from);
 }
 

@@ -55,7 +55,8 @@ struct Apron {
   double from = 0;            ///< of the crest's height: what lies below counts less than half
   double length = 0;          ///< from there to the foot
   bool is_high = false;       ///< it begins above a third of the height, and is no thin layer
-  double angle_with_rad = 0;  ///< of the same line if it counted in full
+  double angle_with_rad = 0;  ///< of the line if it counted in full
+  LineFit line_with;          ///< that line
 };
 
 /// One side of the heap, fitted. Lengths in working pixels, along and above the ground line.

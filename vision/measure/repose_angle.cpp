@@ -163,11 +163,6 @@ Flank flank_of(const FlankFit& fit, const Reading& reading, Side side, const Wor
   for (WindowAngle& window : flank.other_windows) {
     window.angle_rad = correction.angle_rad(window.angle_rad);
   }
-  if (fit.apron) {
-    flank.apron = FlankApron{.from = fit.apron->from,
-                             .length_px = fit.apron->length * work.shrink,
-                             .angle_with_rad = correction.angle_rad(fit.apron->angle_with_rad)};
-  }
 
   const GroundFrame ground(reading.body.ground);
   const double crest = reading.profile.along[reading.profile.crest];
@@ -178,10 +173,17 @@ Flank flank_of(const FlankFit& fit, const Reading& reading, Side side, const Wor
   for (std::size_t i = 0; i < fit.counted(); ++i) {
     flank.edge.push_back(place(fit.along[i], fit.height[i]));
   }
-  const LineFit& line = fit.shown;
-  const double end = fit.along[fit.counted() - 1];
-  flank.line =
-      Segment{place(fit.along.front(), line.y(fit.along.front())), place(end, line.y(end))};
+  const auto segment = [&](const LineFit& line, double end) {
+    const double begin = fit.along.front();
+    return Segment{place(begin, line.y(begin)), place(end, line.y(end))};
+  };
+  flank.line = segment(fit.shown, fit.along[fit.counted() - 1]);
+  if (fit.apron) {
+    flank.apron = FlankApron{.from = fit.apron->from,
+                             .length_px = fit.apron->length * work.shrink,
+                             .angle_with_rad = correction.angle_rad(fit.apron->angle_with_rad),
+                             .line_with = segment(fit.apron->line_with, fit.along.back())};
+  }
   return flank;
 }
 

@@ -97,6 +97,7 @@ struct FlankApron {
   double from = 0;            ///< of the heap's height: where it begins
   double length_px = 0;       ///< from there to the foot
   double angle_with_rad = 0;  ///< of this side if the apron counted in full
+  Segment line_with = {};     ///< the line that would give it, over the whole window [px]
 };
 
 struct Flank {
