@@ -86,4 +86,8 @@ std::vector<Fault> Faults::all() const {
   return faults;
 }
 
+std::string naming_file(const std::string& file, const std::string& error) {
+  return error.starts_with(file + ": ") ? error : file + ": " + error;
+}
+
 }  // namespace repose::base

@@ -59,6 +59,9 @@ class InputError : public std::runtime_error {
   std::vector<Fault> faults_;
 };
 
+/// "FILE: what. Fix: ...": errors of measuring a file do not name it, those of reading it do.
+std::string naming_file(const std::string& file, const std::string& error);
+
 /// Collects what is wrong with an input, to say all of it at once.
 class Faults {
  public:

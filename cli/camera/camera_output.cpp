@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/common/json_text.h"
+#include "calibrate/measured/json_text.h"
 #include "cli/common/table.h"
 #include "vision/measure/repose_angle.h"
 

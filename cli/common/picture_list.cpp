@@ -14,10 +14,6 @@ namespace repose::cli {
 
 namespace fs = std::filesystem;
 
-std::string naming_file(const std::string& file, const std::string& error) {
-  return error.starts_with(file + ": ") ? error : file + ": " + error;
-}
-
 std::vector<fs::path> files_in(vision::FileList list, std::vector<std::string>& errors,
                                std::vector<std::string>& notes) {
   for (const base::Fault& fault : list.faults) errors.push_back(fault.text());

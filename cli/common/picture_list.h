@@ -11,9 +11,6 @@
 
 namespace repose::cli {
 
-/// "FILE: what. Fix: ...": errors of measuring a picture do not name it, those of reading it do.
-std::string naming_file(const std::string& file, const std::string& error);
-
 /// The files, and what is wrong and to be known of their names.
 std::vector<std::filesystem::path> files_in(vision::FileList list, std::vector<std::string>& errors,
                                             std::vector<std::string>& notes);

@@ -61,11 +61,4 @@ calibrate::PositionsOptions read_position_options(const PositionArguments& argum
   return options;
 }
 
-bool is_positions_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return !vision::has_scan_ending(file) && !vision::has_picture_ending(file) &&
-         !vision::has_film_ending(file) && !std::filesystem::is_directory(file, ignored) &&
-         calibrate::is_particle_file(file);
-}
-
 }  // namespace repose::cli

@@ -44,7 +44,4 @@ extern const char* const kPositionNotes;
 calibrate::PositionsOptions read_position_options(const PositionArguments& arguments,
                                                   std::vector<std::string>& errors);
 
-/// A file of particles, and neither a picture nor a film nor a scan nor a folder.
-bool is_positions_file(const std::filesystem::path& file);
-
 }  // namespace repose::cli

@@ -76,7 +76,7 @@ void add_simulated(const ComparePlan& plan, std::size_t set, Work& work) {
           calibrate::read_positions(files[heap], {}).heap.scene,
           calibrate::HeapViewing{.camera = plan.camera}));
     } catch (const base::InputError& error) {
-      work.errors.push_back(naming_file(files[heap].string(), error.what()));
+      work.errors.push_back(base::naming_file(files[heap].string(), error.what()));
       continue;
     }
     const calibrate::HeapViewSession& session = *work.sessions.back();
@@ -127,8 +127,8 @@ void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupte
       if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
       measure(plan, task, renderer.get(), work.sets[task.set][task.heap], work);
     } catch (const base::InputError& error) {
-      errors[i] = naming_file(plan.sources[task.set].files[task.heap].string(),
-                              base::text_of(error.faults(), kCompareFields[task.set]));
+      errors[i] = base::naming_file(plan.sources[task.set].files[task.heap].string(),
+                                    base::text_of(error.faults(), kCompareFields[task.set]));
     }
     progress.advance();
   });
@@ -333,7 +333,7 @@ std::array<MeasuredHeap, 2> measure_both(const ComparePlan& plan) {
       heaps[i] = measured(plan.sources[i].files.front(), plan.measuring[i]);
     } catch (const base::InputError& error) {
       heaps[i].error =
-          naming_file(plan.sources[i].name, base::text_of(error.faults(), kCompareFields[i]));
+          base::naming_file(plan.sources[i].name, base::text_of(error.faults(), kCompareFields[i]));
     }
   });
   return heaps;

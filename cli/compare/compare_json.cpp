@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/common/json_text.h"
+#include "calibrate/measured/json_text.h"
 #include "cli/compare/compare_table.h"
 #include "vision/measure/repose_angle.h"
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/measured/measured_file.h"
 #include "calibrate/study/study_record.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
@@ -71,7 +72,8 @@ HeapSource folder_source(const std::string& name, std::vector<std::string>& erro
 
 HeapSource::Kind kind_of(const fs::path& file) {
   if (vision::has_scan_ending(file)) return HeapSource::Kind::scans;
-  return is_positions_file(file) ? HeapSource::Kind::simulated : HeapSource::Kind::pictures;
+  return calibrate::is_positions_file(file) ? HeapSource::Kind::simulated
+                                            : HeapSource::Kind::pictures;
 }
 
 }  // namespace

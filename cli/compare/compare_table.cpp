@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/common/json_text.h"
+#include "calibrate/measured/json_text.h"
 #include "cli/common/table.h"
 #include "dem/experiment/experiment_table.h"
 #include "vision/compare/heap_comparison.h"

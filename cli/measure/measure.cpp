@@ -2,372 +2,32 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <iterator>
-#include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <tbb/parallel_pipeline.h>
 
-#include "base/input_error.h"
-#include "base/memory.h"
+#include "calibrate/measured/measured_json.h"
+#include "calibrate/measured/measured_set.h"
 #include "calibrate/report/measure_report.h"
 #include "cli/common/batch.h"
-#include "cli/common/output.h"
-#include "cli/common/picture_list.h"
 #include "cli/common/terminal.h"
-#include "cli/measure/measure_json.h"
-#include "cli/measure/measure_options.h"
 #include "cli/measure/measure_table.h"
-#include "cli/measure/summary.h"
-#include "vision/drawing/overlay.h"
-#include "vision/drawing/scan_overlay.h"
 #include "vision/files/file_list.h"
-#include "vision/files/heap_file.h"
-#include "vision/film/film_angle.h"
-#include "vision/hints/hint_file.h"
-#include "vision/picture/made_here.h"
-#include "vision/picture/picture.h"
-#include "vision/scan/scan_file.h"
-#include "vision/scan/scanned_heap.h"
 
 namespace repose::cli {
 
-namespace {
-
-namespace fs = std::filesystem;
-
-/// "heap.mp4 at 1.20 s".
-std::string title_of(const fs::path& file, const MeasuredPicture& measured) {
-  const std::string name = file.filename().string();
-  if (measured.positions) return name + ", the first of its views";
-  if (!measured.filmed) return name;
-  if (measured.filmed->time_s) return fmt::format("{} at {:.2f} s", name, *measured.filmed->time_s);
-  const auto& stretch = measured.filmed->stretch;
-  if (!stretch) return name;
-  return fmt::format("{} at rest from {:.2f} to {:.2f} s", name, stretch->from_s, stretch->to_s);
-}
-
-/// What was measured: a picture, corrected where its lens is known, and what was said of it there.
-struct Seen {
-  const vision::Picture& picture;
-  const vision::MeasureOptions& options;
-};
-
-vision::OverlayNotes notes_for(const fs::path& file, const MeasuredPicture& measured,
-                               const Seen& seen) {
-  return {.title = title_of(file, measured),
-          .excluded = seen.options.excluded,
-          .hints = seen.options.hints};
-}
-
-void draw(const Seen& seen, const fs::path& file, const fs::path& overlay,
-          MeasuredPicture& measured) {
-  try {
-    vision::write_picture(overlay, vision::draw_overlay(seen.picture, measured.angle,
-                                                        notes_for(file, measured, seen)));
-  } catch (const base::InputError& error) {
-    measured.overlay_error = error.what();
-  }
-}
-
-/// Does `work`; what it throws becomes the picture's error.
-template <typename Work>
-void attempt(MeasuredPicture& measured, const Work& work) {
-  try {
-    work();
-  } catch (const base::InputError& error) {
-    measured.outcome = Outcome::bad_input;
-    measured.error = naming_file(measured.file, base::text_of(error.faults(), kMeasureFields));
-  } catch (const std::exception& error) {
-    const bool is_too_large = base::is_out_of_memory(error);
-    measured.outcome = is_too_large ? Outcome::bad_input : Outcome::internal_error;
-    measured.error = is_too_large
-                         ? base::no_memory(measured.file,
-                                           "a smaller picture (800 pixels a side are as good), "
-                                           "or fewer --threads")
-                         : naming_file(measured.file, error.what());
-  }
-}
-
-/// What many pictures have no room for.
-void drop_large_parts(MeasuredPicture& measured) {
-  measured.told.measuring.hints.mask.bgr = {};
-  measured.angle.outline = {};
-  measured.angle.upper_edge = {};
-  measured.angle.left.edge = {};
-  measured.angle.right.edge = {};
-}
-
-/// A proposal for the corrected picture, in the pixels of the picture as it is.
-void move_back(const vision::Lens& lens, vision::Proposal& proposal) {
-  for (auto* box : {&proposal.excluded, &proposal.heap}) {
-    if (*box) *box = vision::seen_box(**box, lens);
-  }
-  if (!proposal.ground) return;
-  proposal.ground =
-      vision::Segment{lens.seen(proposal.ground->from), lens.seen(proposal.ground->to)};
-}
-
-/// Moves what was measured out of the heap.
-void take(vision::SizedHeap& heap, MeasuredPicture& measured) {
-  measured.angle = std::move(heap.angle);
-  measured.lens = heap.lens;
-  measured.board = std::move(heap.board);
-  measured.has_scale = heap.has_scale;
-  measured.sizes = std::move(heap.sizes);
-}
-
-/// The picture that was measured.
-const vision::Picture& seen_in(const vision::Picture& picture, const vision::SizedHeap& heap) {
-  return heap.corrected.empty() ? picture : heap.corrected;
-}
-
-/// All that follows from the angle of a picture, or of a film's heap at rest.
-void finish(const MeasurePlan& plan, std::size_t index, const Seen& seen,
-            MeasuredPicture& measured) {
-  const vision::Picture& picture = seen.picture;
-  const fs::path& file = plan.pictures[index];
-  const bool shows_heap = !measured.filmed || measured.filmed->stretch;
-  if (measured.angle.status == vision::MeasureStatus::refused && shows_heap) {
-    measured.proposal = vision::propose_hint(picture, seen.options);
-    if (measured.proposal && measured.lens) move_back(*measured.lens, *measured.proposal);
-  }
-  if (plan.saves_hints) vision::save_hints(measured.told, file);
-  if (!plan.overlays.empty() && !picture.empty()) {
-    draw(seen, file, plan.overlays[index], measured);
-  }
-  if (plan.keeps_overlays && !picture.empty()) {
-    measured.overlay = calibrate::report::overlay_for_page(
-        picture, measured.angle, notes_for(file, measured, seen), plan.pictures.size());
-  }
-}
-
-/// OVERLAYS/heap_at_01.200s.png for the overlay OVERLAYS/heap.png, or where the user has such a
-/// picture, another name.
-fs::path overlay_of_frame(const MeasurePlan& plan, std::size_t index, double time_s,
-                          double length_s) {
-  const fs::path& whole = plan.overlays[index];
-  const int digits = static_cast<int>(fmt::format("{:.3f}", length_s).size());
-  const std::string name = fmt::format("{}_at_{:0{}.3f}s", whole.stem().string(), time_s, digits);
-  fs::path file = whole.parent_path() / (name + ".png");
-  const auto is_taken = [&] {
-    return !vision::is_made_here(file) ||
-           std::find(plan.overlays.begin(), plan.overlays.end(), file) != plan.overlays.end();
-  };
-  for (int number = 2; is_taken(); ++number) {
-    file = whole.parent_path() / fmt::format("{}-{}.png", name, number);
-  }
-  return file;
-}
-
-/// A frame on its way through the pipeline.
-struct Frame {
-  std::size_t place = 0;
-  vision::TimedPicture timed;
-};
-
-MeasuredPicture measure_frame(const MeasurePlan& plan, std::size_t index,
-                              const MeasuredPicture& rest, const vision::TimedPicture& timed) {
-  const vision::FilmStretch stretch{.from_s = timed.time_s, .to_s = timed.time_s, .frames = 1};
-  MeasuredPicture measured;
-  measured.file = rest.file;
-  measured.filmed =
-      FilmedPicture{.film = rest.filmed->film, .stretch = stretch, .time_s = timed.time_s};
-  attempt(measured, [&] {
-    measured.told = rest.told;
-    vision::SizedHeap heap =
-        vision::measure_sized_heap(timed.picture, measured.told.measuring, measured.told.scale);
-    take(heap, measured);
-    if (!plan.overlays.empty()) {
-      const double length_s = rest.filmed->film.length_s;
-      draw({seen_in(timed.picture, heap), heap.options}, plan.pictures[index],
-           overlay_of_frame(plan, index, timed.time_s, length_s), measured);
-    }
-  });
-  drop_large_parts(measured);
-  return measured;
-}
-
-/// Decodes frames one after the other and measures several at a time.
-void measure_series(const MeasurePlan& plan, std::size_t index, vision::FrameSeries& series,
-                    const std::function<void(double)>& progress,
-                    std::vector<MeasuredPicture>& measured) {
-  const std::size_t count = series.times_s().size();
-  std::vector<MeasuredPicture> frames(count);
-  std::size_t read = 0;
-  const auto next = [&](tbb::flow_control& flow) -> std::shared_ptr<Frame> {
-    auto timed = read < count ? series.next() : std::nullopt;
-    if (!timed) {
-      flow.stop();
-      return nullptr;
-    }
-    progress(static_cast<double>(read) / static_cast<double>(count));
-    return std::make_shared<Frame>(Frame{.place = read++, .timed = std::move(*timed)});
-  };
-  const auto measure = [&](const std::shared_ptr<Frame>& frame) {
-    frames[frame->place] = measure_frame(plan, index, measured.front(), frame->timed);
-  };
-  using Filter = tbb::filter_mode;
-  tbb::parallel_pipeline(
-      static_cast<std::size_t>(plan.threads),
-      tbb::make_filter<void, std::shared_ptr<Frame>>(Filter::serial_in_order, next) &
-          tbb::make_filter<std::shared_ptr<Frame>, void>(Filter::parallel, measure));
-  frames.resize(read);
-  std::move(frames.begin(), frames.end(), std::back_inserter(measured));
-}
-
-void check_step(double step_s, const vision::FilmAngle& film) {
-  if (step_s <= film.film.length_s || film.film.frames < 2) return;
-  throw base::InputError(
-      {.value = fmt::format("--every {:g} is longer than the film, which lasts {:.3g} s", step_s,
-                            film.film.length_s),
-       .fix = "take a smaller step."});
-}
-
-std::vector<MeasuredPicture> measure_one_film(const MeasurePlan& plan, std::size_t index,
-                                              const std::function<void(double)>& progress) {
-  const fs::path& file = plan.pictures[index];
-  const double rest_part = plan.every_s ? .3 : 1;
-  std::vector<MeasuredPicture> measured(1);
-  measured.front().file = file.string();
-  attempt(measured.front(), [&] {
-    MeasuredPicture& rest = measured.front();
-    rest.told = vision::with_saved_hints({plan.options, plan.scale}, file);
-    const vision::FilmFile frames{file, plan.frames_per_s, {}, rest.told.measuring.hints.turn_deg};
-    vision::FilmAngle film = vision::measure_film(frames, rest.told.measuring, rest.told.scale,
-                                                  [&](double done) { progress(rest_part * done); });
-    if (plan.every_s) check_step(*plan.every_s, film);
-    take(film.heap, rest);
-    rest.filmed = FilmedPicture{.film = film.film, .stretch = film.stretch, .time_s = {}};
-    finish(plan, index, {seen_in(film.picture, film.heap), film.heap.options}, rest);
-    if (!plan.every_s) return;
-    vision::FrameSeries series(frames, film.times_s, *plan.every_s);
-    measure_series(
-        plan, index, series, [&](double done) { progress(rest_part + (1 - rest_part) * done); },
-        measured);
-  });
-  drop_large_parts(measured.front());
-  return measured;
-}
-
-std::vector<MeasuredPicture> measure_one_picture(const MeasurePlan& plan, std::size_t index) {
-  const fs::path& file = plan.pictures[index];
-  std::vector<MeasuredPicture> measured(1);
-  measured.front().file = file.string();
-  attempt(measured.front(), [&] {
-    MeasuredPicture& one = measured.front();
-    vision::HeapInFile seen = vision::measure_heap_file(file, {plan.options, plan.scale});
-    one.pixels = vision::pixels_of(seen.picture);
-    one.told = seen.told;
-    take(seen.heap, one);
-    finish(plan, index, {seen.measured(), seen.heap.options}, one);
-  });
-  drop_large_parts(measured.front());
-  return measured;
-}
-
-std::vector<MeasuredPicture> measure_one_scan(const MeasurePlan& plan, std::size_t index) {
-  const fs::path& file = plan.pictures[index];
-  std::vector<MeasuredPicture> measured(1);
-  measured.front().file = file.string();
-  attempt(measured.front(), [&] {
-    MeasuredPicture& one = measured.front();
-    one.scan = vision::measure_scan(vision::read_scan(file), plan.scan);
-    one.angle = one.scan->angle;
-    one.has_scale = one.scan->height_mm.has_value();
-    one.sizes.reason = one.scan->size_reason;
-    one.sizes.height_mm = one.scan->height_mm;
-    one.sizes.base_mm = one.scan->base_mm;
-    one.silhouettes = calibrate::measure_scan_views(*one.scan, plan.options);
-    one.silhouettes->views.clear();
-    one.silhouettes->typical_picture = {};
-    if (plan.overlays.empty() && !plan.keeps_overlays) return;
-    const vision::Picture overlay = vision::draw_scan_overlay(*one.scan, file.filename().string());
-    if (plan.keeps_overlays) {
-      one.overlay = calibrate::report::page_overlay(overlay, plan.pictures.size());
-    }
-    if (plan.overlays.empty()) return;
-    try {
-      vision::write_picture(plan.overlays[index], overlay);
-    } catch (const base::InputError& error) {
-      one.overlay_error = error.what();
-    }
-  });
-  if (measured.front().scan) measured.front().scan->map = {};
-  return measured;
-}
-
-/// Drawn from all around. The overlay is of the first view.
-std::vector<MeasuredPicture> measure_one_of_particles(const MeasurePlan& plan, std::size_t index,
-                                                      const std::function<void(double)>& progress) {
-  const fs::path& file = plan.pictures[index];
-  std::vector<MeasuredPicture> measured(1);
-  MeasuredPicture& one = measured.front();
-  one.file = file.string();
-  attempt(one, [&] {
-    one.told.measuring = plan.options;
-    one.positions = calibrate::measure_positions(file, plan.positions, plan.options, progress);
-    calibrate::MeasuredPositions& positions = *one.positions;
-    one.angle = positions.angle;
-    one.sizes = positions.sizes;
-    one.has_scale = positions.mm_per_px > 0;
-    MeasuredPicture shown;
-    shown.file = one.file;
-    shown.positions.emplace();
-    shown.angle = positions.views.front();
-    const Seen seen{positions.first_picture, plan.options};
-    if (!plan.overlays.empty()) draw(seen, file, plan.overlays[index], shown);
-    one.overlay_error = shown.overlay_error;
-    if (plan.keeps_overlays) {
-      one.overlay = calibrate::report::overlay_for_page(
-          seen.picture, shown.angle, notes_for(file, shown, seen), plan.pictures.size());
-    }
-    positions.first_picture = {};
-    drop_large_parts(shown);
-    positions.views.front() = std::move(shown.angle);
-  });
-  return measured;
-}
-
-/// Measures the plan's file of this place, and draws its overlays.
-/// @param progress  told which fraction is done; what it throws, other than what says that a file
-///   is wrong, ends the work
-/// @returns one, and behind it a film's frames where the plan wants them
-std::vector<MeasuredPicture> measure_file(const MeasurePlan& plan, std::size_t index,
-                                          const std::function<void(double)>& progress) {
-  const fs::path& file = plan.pictures[index];
-  std::error_code ignored;
-  const bool is_film = vision::has_film_ending(file) || fs::is_directory(file, ignored);
-  std::vector<MeasuredPicture> measured;
-  if (is_film) {
-    measured = measure_one_film(plan, index, progress);
-  } else if (vision::has_scan_ending(file)) {
-    measured = measure_one_scan(plan, index);
-  } else if (is_positions_file(file)) {
-    measured = measure_one_of_particles(plan, index, progress);
-  } else {
-    measured = measure_one_picture(plan, index);
-  }
-  progress(1);
-  return measured;
-}
-
-}  // namespace
-
-std::vector<MeasuredPicture> measure_batch(const MeasurePlan& plan,
-                                           const std::atomic<bool>& is_interrupted) {
-  using Measured = std::vector<MeasuredPicture>;
+std::vector<calibrate::MeasuredPicture> measure_batch(const MeasurePlan& plan,
+                                                      const std::atomic<bool>& is_interrupted) {
+  using Measured = std::vector<calibrate::MeasuredPicture>;
   std::vector<Measured> results =
       batch_of<Measured>(plan.pictures.size(), plan.threads, "measured", is_interrupted,
                          [&](std::size_t number, const std::function<void(double)>& report) {
-                           return measure_file(plan, number, report);
+                           return calibrate::measure_file(plan, number, report);
                          });
   Measured all;
   for (Measured& one : results) {
@@ -378,21 +38,22 @@ std::vector<MeasuredPicture> measure_batch(const MeasurePlan& plan,
 
 namespace {
 
-void print_errors(const std::vector<MeasuredPicture>& pictures) {
-  for (const MeasuredPicture& picture : pictures) {
-    const std::string whose = picture.outcome == Outcome::internal_error ? "internal error: " : "";
+void print_errors(const std::vector<calibrate::MeasuredPicture>& pictures) {
+  for (const calibrate::MeasuredPicture& picture : pictures) {
+    const std::string whose =
+        picture.outcome == calibrate::Outcome::internal_error ? "internal error: " : "";
     if (!picture.error.empty()) print_line(whose + picture.error);
     if (!picture.overlay_error.empty()) print_line(picture.overlay_error);
   }
 }
 
 /// Of pictures and films that are copies of an earlier one.
-void name_copies(std::vector<MeasuredPicture>& pictures) {
-  std::vector<MeasuredPicture*> whole;
+void name_copies(std::vector<calibrate::MeasuredPicture>& pictures) {
+  std::vector<calibrate::MeasuredPicture*> whole;
   std::vector<std::filesystem::path> files;
   std::vector<std::string> pixels;
-  for (MeasuredPicture& picture : pictures) {
-    if (is_of_series(picture) || picture.outcome != Outcome::measured) continue;
+  for (calibrate::MeasuredPicture& picture : pictures) {
+    if (is_of_series(picture) || picture.outcome != calibrate::Outcome::measured) continue;
     whole.push_back(&picture);
     files.emplace_back(picture.file);
     pixels.push_back(picture.pixels);
@@ -405,9 +66,11 @@ void name_copies(std::vector<MeasuredPicture>& pictures) {
   }
 }
 
-std::string human_text(const std::vector<MeasuredPicture>& pictures,
+std::string human_text(const std::vector<calibrate::MeasuredPicture>& pictures,
                        const MeasureArguments& arguments, const MeasurePlan& plan) {
-  const auto is_unread = [](const auto& picture) { return picture.outcome != Outcome::measured; };
+  const auto is_unread = [](const auto& picture) {
+    return picture.outcome != calibrate::Outcome::measured;
+  };
   if (std::all_of(pictures.begin(), pictures.end(), is_unread)) return {};
   const TableStyle style{.columns = columns_of(stdout),
                          .has_colour = wants_colour(stdout),
@@ -417,16 +80,17 @@ std::string human_text(const std::vector<MeasuredPicture>& pictures,
   if (!definition.empty()) text += "\nall angles by " + definition + '\n';
   const auto repeats = std::count_if(pictures.begin(), pictures.end(),
                                      [](const auto& picture) { return !is_of_series(picture); });
-  if (repeats > 1) text += '\n' + summary_text(summarise(pictures)) + '\n';
+  if (repeats > 1) text += '\n' + calibrate::text_of_set(calibrate::measured_set(pictures)) + '\n';
   return text;
 }
 
-std::string report_page(const std::vector<MeasuredPicture>& pictures, const MeasurePlan& plan) {
+std::string report_page(const std::vector<calibrate::MeasuredPicture>& pictures,
+                        const MeasurePlan& plan) {
   std::vector<calibrate::report::MeasuredPhotograph> shown;
-  for (const MeasuredPicture& picture : pictures) {
+  for (const calibrate::MeasuredPicture& picture : pictures) {
     if (is_of_series(picture) || !picture.copy_of.empty()) continue;
     shown.push_back({.file = picture.file,
-                     .error = picture.outcome == Outcome::measured ? "" : picture.error,
+                     .error = picture.outcome == calibrate::Outcome::measured ? "" : picture.error,
                      .angle = picture.angle,
                      .overlay = picture.overlay,
                      .heap = picture.heap});
@@ -434,28 +98,31 @@ std::string report_page(const std::vector<MeasuredPicture>& pictures, const Meas
   return calibrate::report::measure_report(shown, plan.options).html;
 }
 
-Outputs results_of(const std::vector<MeasuredPicture>& pictures, const MeasureArguments& arguments,
-                   const MeasurePlan& plan) {
+Outputs results_of(const std::vector<calibrate::MeasuredPicture>& pictures,
+                   const MeasureArguments& arguments, const MeasurePlan& plan) {
   Outputs outputs;
   outputs.show(human_text(pictures, arguments, plan));
-  outputs.add(arguments.json_file, measure_json(pictures));
-  outputs.add(arguments.csv_file, measure_csv(pictures));
-  outputs.add(arguments.summary_file, summary_json(summarise(pictures), plan.options));
+  outputs.add(arguments.json_file, calibrate::measure_json(pictures));
+  outputs.add(arguments.csv_file, calibrate::measure_csv(pictures));
+  outputs.add(arguments.summary_file,
+              calibrate::set_json(calibrate::measured_set(pictures), plan.options));
   if (!arguments.report_file.empty()) {
     outputs.add(arguments.report_file, report_page(pictures, plan));
   }
   return outputs;
 }
 
-ExitCode exit_code(const std::vector<MeasuredPicture>& pictures) {
+ExitCode exit_code(const std::vector<calibrate::MeasuredPicture>& pictures) {
   const auto any = [&](auto predicate) {
     return std::any_of(pictures.begin(), pictures.end(), predicate);
   };
-  if (any([](const auto& picture) { return picture.outcome == Outcome::internal_error; })) {
+  if (any([](const auto& picture) {
+        return picture.outcome == calibrate::Outcome::internal_error;
+      })) {
     return ExitCode::internal_error;
   }
   if (any([](const auto& picture) {
-        return picture.outcome == Outcome::bad_input || !picture.overlay_error.empty();
+        return picture.outcome == calibrate::Outcome::bad_input || !picture.overlay_error.empty();
       })) {
     return ExitCode::bad_input;
   }
@@ -473,16 +140,17 @@ ExitCode run_measure(const MeasureArguments& arguments) {
   print_lines(plan.notes);
 
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
-  std::vector<MeasuredPicture> pictures = measure_batch(plan, is_interrupted);
+  std::vector<calibrate::MeasuredPicture> pictures = measure_batch(plan, is_interrupted);
   if (is_interrupted) {
     print_line("interrupted, no results were written");
     return ExitCode::interrupted;
   }
   name_copies(pictures);
   if (arguments.groups_by_name) {
-    for (MeasuredPicture& picture : pictures) picture.heap = vision::heap_by_name(picture.file);
+    for (calibrate::MeasuredPicture& picture : pictures)
+      picture.heap = vision::heap_by_name(picture.file);
   }
-  name_outliers(pictures);
+  calibrate::name_outliers(pictures);
   Outputs outputs = results_of(pictures, arguments, plan);
   outputs.write_files();
   print_errors(pictures);

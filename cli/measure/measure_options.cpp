@@ -17,7 +17,6 @@
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
-#include "cli/measure/measure.h"
 #include "vision/files/file_list.h"
 #include "vision/film/film_angle.h"
 #include "vision/picture/picture.h"
@@ -124,7 +123,7 @@ void read_scans_and_particles(const MeasureArguments& arguments, MeasurePlan& pl
 void check_kinds_of_files(const MeasureArguments& arguments, MeasurePlan& plan) {
   if (plan.pictures.empty()) return;
   const auto scan = std::ranges::find_if(plan.pictures, vision::has_scan_ending);
-  const auto particles = std::ranges::find_if(plan.pictures, is_positions_file);
+  const auto particles = std::ranges::find_if(plan.pictures, calibrate::is_positions_file);
   const bool has_scan = scan != plan.pictures.end();
   const bool has_particles = particles != plan.pictures.end();
   const PositionArguments& said = arguments.positions;
@@ -167,6 +166,7 @@ void check_kinds_of_files(const MeasureArguments& arguments, MeasurePlan& plan) 
 
 MeasurePlan plan_measure(const MeasureArguments& arguments) {
   MeasurePlan plan;
+  plan.fields = kMeasureFields;
   plan.options = read_measuring({.method = arguments.method,
                                  .window = arguments.window,
                                  .definition = arguments.definition,

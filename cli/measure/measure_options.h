@@ -1,18 +1,14 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/input_error.h"
+#include "calibrate/measured/measured_file.h"
 #include "cli/common/command.h"
 #include "cli/common/picture_options.h"
 #include "cli/common/position_options.h"
-#include "vision/camera/sized_heap.h"
-#include "vision/measure/repose_angle.h"
-#include "vision/scan/scanned_heap.h"
 
 namespace repose::cli {
 
@@ -65,19 +61,7 @@ struct MeasureArguments {
 };
 
 /// A `repose measure` that can be carried out.
-struct MeasurePlan {
-  std::vector<std::filesystem::path> pictures;  ///< and films, and files of particles
-  std::vector<std::filesystem::path> overlays;  ///< one a picture, or none
-  bool keeps_overlays = false;                  ///< in memory, for a report
-  vision::MeasureOptions options;
-  std::optional<double> frames_per_s;  ///< of folders, each a film's frames
-  vision::ScaleOptions scale;
-  vision::ScanOptions scan;
-  calibrate::PositionsOptions positions;  ///< of files of particles
-  std::optional<double> every_s;          ///< also frames of each film, so far apart
-  bool saves_hints = false;
-  int threads = 1;
-
+struct MeasurePlan : calibrate::FileMeasuring {
   std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know
 };

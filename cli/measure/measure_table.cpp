@@ -1,21 +1,19 @@
 #include "cli/measure/measure_table.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/angle_definition.h"
-#include "cli/common/json_text.h"
+#include "base/units.h"
+#include "calibrate/measured/measured_command.h"
+#include "calibrate/measured/measured_file.h"
 #include "cli/common/table.h"
-#include "cli/measure/measure.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/scan/scanned_heap.h"
 
@@ -23,111 +21,15 @@ namespace repose::cli {
 
 namespace {
 
-/// In quotes where a shell would take it for something else.
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view kHarmless = "/._-+,:=@%";
-  const auto is_harmless = [&](unsigned char c) {
-    return std::isalnum(c) != 0 || c >= 0x80 ||
-           kHarmless.find(static_cast<char>(c)) != kHarmless.npos;
-  };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), is_harmless)) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string value_of(const vision::Box& box) {
-  return fmt::format("{},{},{},{}", box.x, box.y, box.width, box.height);
-}
-
-std::string value_of(const vision::Segment& line) {
-  return fmt::format("{:.0f},{:.0f},{:.0f},{:.0f}", line.from.x, line.from.y, line.to.x, line.to.y);
-}
-
-std::string value_of(const vision::Point& place) {
-  return fmt::format("{:g},{:g}", place.x, place.y);
-}
-
-/// Options of a command, one after the other.
-class Options {
- public:
-  void add(const char* name, const std::string& value) {
-    text_ += fmt::format(" {} {}", name, value);
-  }
-  void add(const char* name) { text_ += fmt::format(" {}", name); }
-  template <class Item>
-  void add_each(const char* name, const std::vector<Item>& items) {
-    for (const Item& item : items) add(name, value_of(item));
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-void add_scale(const vision::ScaleOptions& scale, Options& options) {
-  if (!scale.lens_file.empty()) options.add("--camera-file", shell_word(scale.lens_file.string()));
-  if (scale.scale) {
-    options.add("--scale",
-                fmt::format("{},{:g}", value_of(scale.scale->line), scale.scale->length_mm));
-  }
-  if (!scale.finds_board) return;
-  options.add("--board");
-  if (scale.square_mm != vision::kBoardSquare_mm) {
-    options.add("--square-mm", fmt::format("{:g}", scale.square_mm));
-  }
-  if (scale.board_offset_mm > 0)
-    options.add("--board-behind", fmt::format("{:g}", scale.board_offset_mm));
-}
-
-void add_measuring(const vision::MeasureOptions& told, Options& options) {
-  const vision::MeasureOptions usual;
-  if (told.method != usual.method) options.add("--method", "paper");
-  if (told.window_from != usual.window_from || told.window_to != usual.window_to) {
-    options.add("--window", fmt::format("{:g},{:g}", told.window_from, told.window_to));
-  }
-  if (!base::is_usual_definition(told.definition)) options.add("--definition", told.definition);
-  if (told.hints.turn_deg != 0) {
-    options.add("--rotate", fmt::format("{}", told.hints.turn_deg));
-  }
-  options.add_each("--exclude", told.excluded);
-  if (told.hints.half) options.add("--half", name_of(*told.hints.half));
-  options.add_each("--keep", told.hints.keep);
-  options.add_each("--drop", told.hints.drop);
-  if (!told.hints.mask_file.empty()) {
-    options.add("--mask", shell_word(told.hints.mask_file.string()));
-  }
-  if (told.camera_pitch_rad) {
-    options.add("--pitch-deg", fmt::format("{:g}", to_degrees(*told.camera_pitch_rad)));
-  }
-}
-
-/// What makes a folder of frames a film.
-void add_frame_rate(const MeasuredPicture& picture, Options& options) {
-  std::error_code ignored;
-  if (!picture.filmed || !std::filesystem::is_directory(picture.file, ignored)) return;
-  options.add("--fps", fmt::format("{:g}", picture.filmed->film.frames_per_s));
-}
-
 /// The command that measures a refused picture with its proposal and with all else that was said of
-/// it, as a shell takes it; and what it gives, or that its places are to be corrected.
-std::string proposal_text(const MeasuredPicture& picture) {
+/// it; and what it gives, or that its places are to be corrected.
+std::string proposal_text(const calibrate::MeasuredPicture& picture) {
   const vision::Proposal& proposal = *picture.proposal;
-  const vision::Hints& hints = picture.told.measuring.hints;
-  Options options;
-  add_measuring(picture.told.measuring, options);
-  add_scale(picture.told.scale, options);
-  add_frame_rate(picture, options);
-  if (proposal.turn_deg != 0) options.add("--rotate", fmt::format("{}", proposal.turn_deg));
-  if (proposal.excluded) options.add("--exclude", value_of(*proposal.excluded));
-  if (const auto& heap = proposal.heap ? proposal.heap : hints.heap) {
-    options.add("--heap", value_of(*heap));
-  }
-  if (const auto& ground = proposal.ground ? proposal.ground : hints.ground) {
-    options.add("--ground", value_of(*ground));
-  }
-  const std::string command =
-      fmt::format("repose measure {}{}", shell_word(picture.file), options.text());
+  calibrate::MeasuredPicture proposed;
+  proposed.file = picture.file;
+  proposed.filmed = picture.filmed;
+  proposed.told = calibrate::with_proposal(picture.told, proposal);
+  const std::string command = calibrate::measure_command(proposed);
   if (!proposal.angle_rad)
     return command + "  with your own corners of the heap and its ground line";
   return fmt::format(
@@ -149,9 +51,9 @@ std::string flank_cell(const vision::Flank& flank, vision::MeasureStatus status)
   return status == vision::MeasureStatus::refused ? kMissing : name_of(flank.status);
 }
 
-Colour row_colour(const MeasuredPicture& picture, bool has_colour) {
+Colour row_colour(const calibrate::MeasuredPicture& picture, bool has_colour) {
   if (!has_colour) return Colour::none;
-  if (picture.outcome != Outcome::measured) return Colour::red;
+  if (picture.outcome != calibrate::Outcome::measured) return Colour::red;
   return colour_of(picture.angle.status);
 }
 
@@ -176,7 +78,7 @@ void add_definitions(Table& table, const vision::ReposeAngle& angle) {
 }
 
 /// What of the film was measured.
-std::string film_text(const FilmedPicture& filmed) {
+std::string film_text(const calibrate::FilmedPicture& filmed) {
   const std::string film = fmt::format("{:.4g} frames per second, {:.3g} s",
                                        filmed.film.frames_per_s, filmed.film.length_s);
   if (!filmed.stretch) return "film of " + film;
@@ -186,7 +88,7 @@ std::string film_text(const FilmedPicture& filmed) {
 
 /// Its file is in the row of the heap at rest; what is to be known of it is in the files alone, for
 /// there may be hundreds.
-void add_frame(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
+void add_frame(Table& table, const calibrate::MeasuredPicture& picture, const TableStyle& style) {
   const vision::ReposeAngle& angle = picture.angle;
   table.add_row(
       {fmt::format("{:7.2f} s", *picture.filmed->time_s),
@@ -210,7 +112,7 @@ std::string size_text(const vision::Estimate& estimate) {
 }
 
 /// Sizes in millimetres, in one line.
-std::string sizes_text(const MeasuredPicture& picture) {
+std::string sizes_text(const calibrate::MeasuredPicture& picture) {
   const vision::HeapSizes& sizes = picture.sizes;
   std::string text;
   const auto add = [&](const char* name, const std::optional<vision::Estimate>& estimate,
@@ -233,7 +135,7 @@ std::string board_text(const vision::SeenBoard& board) {
                      to_degrees(board.pitch_rad->value), to_degrees(board.pitch_rad->uncertainty));
 }
 
-void add_sizes(Table& table, const MeasuredPicture& picture) {
+void add_sizes(Table& table, const calibrate::MeasuredPicture& picture) {
   if (picture.sizes.mm_per_px) table.add_note(kNoteIndent, sizes_text(picture));
   if (picture.board)
     table.add_note(fmt::format("{}board: ", kNoteIndent), board_text(*picture.board));
@@ -258,8 +160,8 @@ std::string silhouettes_text(const std::optional<calibrate::ScanViews>& silhouet
 }
 
 /// Of a scan, whose heap has azimuths and no sides.
-void add_scan(Table& table, const MeasuredPicture& picture, const vision::ScannedHeap& scan,
-              const TableStyle& style) {
+void add_scan(Table& table, const calibrate::MeasuredPicture& picture,
+              const vision::ScannedHeap& scan, const TableStyle& style) {
   const vision::ReposeAngle& angle = scan.angle;
   table.add_row({picture.file, degrees_cell(angle.angle_rad, angle.uncertainty_rad), kMissing,
                  kMissing, kMissing, kMissing, name_of(angle.status)},
@@ -298,11 +200,11 @@ std::string positions_text(const calibrate::MeasuredPositions& positions) {
   return text;
 }
 
-void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle& style) {
+void add_picture(Table& table, const calibrate::MeasuredPicture& picture, const TableStyle& style) {
   if (is_of_series(picture)) return add_frame(table, picture, style);
   const vision::ReposeAngle& angle = picture.angle;
   const Colour colour = row_colour(picture, style.has_colour);
-  if (picture.outcome != Outcome::measured) {
+  if (picture.outcome != calibrate::Outcome::measured) {
     table.add_row({picture.file, kMissing, kMissing, kMissing, kMissing, kMissing, "not read"},
                   colour);
     return;
@@ -331,7 +233,8 @@ void add_picture(Table& table, const MeasuredPicture& picture, const TableStyle&
 
 }  // namespace
 
-std::string measure_table(const std::vector<MeasuredPicture>& pictures, const TableStyle& style) {
+std::string measure_table(const std::vector<calibrate::MeasuredPicture>& pictures,
+                          const TableStyle& style) {
   constexpr std::size_t kAngleWidth = 12;  // "23.38 ± 0.52"
   Table table({{.heading = "picture"},
                {.heading = "angle [°]", .min_width = kAngleWidth},
@@ -340,7 +243,7 @@ std::string measure_table(const std::vector<MeasuredPicture>& pictures, const Ta
                {.heading = "tilt [°]", .align = Align::right},
                {.heading = "conf.", .align = Align::right},
                {.heading = "status"}});
-  for (const MeasuredPicture& picture : pictures) add_picture(table, picture, style);
+  for (const calibrate::MeasuredPicture& picture : pictures) add_picture(table, picture, style);
   return table.text(style.columns);
 }
 

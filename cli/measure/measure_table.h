@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/measure/measure.h"
+#include "calibrate/measured/measured_file.h"
 
 namespace repose::cli {
 
@@ -15,6 +15,7 @@ struct TableStyle {
 
 /// A row for each picture, film and frame of a series for people to read; below it its warnings, or
 /// why it was refused.
-std::string measure_table(const std::vector<MeasuredPicture>& pictures, const TableStyle& style);
+std::string measure_table(const std::vector<calibrate::MeasuredPicture>& pictures,
+                          const TableStyle& style);
 
 }  // namespace repose::cli

@@ -9,7 +9,7 @@
 #include "base/angle_definition.h"
 #include "base/version.h"
 #include "calibrate/experiment/model_fields.h"
-#include "cli/common/json_text.h"
+#include "calibrate/measured/json_text.h"
 #include "cli/common/table.h"
 #include "cli/simulate/simulate_summary.h"
 #include "dem/contact/model_names.h"

@@ -66,11 +66,11 @@ TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
     if (!plan.overlays.empty()) draw(plan, index, tracked);
     drop_strobe(tracked);
   } catch (const base::InputError& error) {
-    tracked.error = naming_file(tracked.file, error.what());
+    tracked.error = base::naming_file(tracked.file, error.what());
   } catch (const std::exception& error) {
     tracked.is_internal_error = !base::is_out_of_memory(error);
     tracked.error = tracked.is_internal_error
-                        ? naming_file(tracked.file, error.what())
+                        ? base::naming_file(tracked.file, error.what())
                         : base::no_memory(tracked.file, "a smaller film, or fewer --threads");
   }
   return tracked;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
-#include "cli/common/json_text.h"
+#include "calibrate/measured/json_text.h"
 #include "vision/measure/repose_angle.h"
 
 namespace repose::cli {

@@ -1,4 +1,4 @@
-#include "cli/measure/measure_json.h"
+#include "calibrate/measured/measured_json.h"
 
 #include <algorithm>
 #include <numbers>
@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
-#include "cli/common/json_text.h"
+#include "calibrate/measured/json_text.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/scan/scanned_heap.h"
 
-namespace repose::cli {
+namespace repose::calibrate {
 
 namespace {
 
@@ -365,7 +365,7 @@ Json ground_json(const std::optional<vision::ScanGround>& ground) {
           {"sectors", ground->sectors}};
 }
 
-Json silhouettes_json(const std::optional<calibrate::ScanViews>& silhouettes) {
+Json silhouettes_json(const std::optional<ScanViews>& silhouettes) {
   if (!silhouettes) return nullptr;
   const vision::ReposeAngle& angle = silhouettes->angle;
   return {{"status", name_of(angle.status)},
@@ -395,9 +395,9 @@ void add_scan(const MeasuredPicture& picture, Json& json) {
 }
 
 /// Of a file of particles: what is in it, and what each view gave.
-Json positions_json(const std::optional<calibrate::MeasuredPositions>& positions) {
+Json positions_json(const std::optional<MeasuredPositions>& positions) {
   if (!positions) return nullptr;
-  const calibrate::PositionsFile& file = positions->file;
+  const PositionsFile& file = positions->file;
   Json views = Json::array();
   for (const vision::ReposeAngle& view : positions->views) {
     const double turn =
@@ -413,7 +413,7 @@ Json positions_json(const std::optional<calibrate::MeasuredPositions>& positions
           {"steps", file.steps},
           {"particles", file.heap.grains},
           {"spheres", file.heap.spheres},
-          {"up", calibrate::name_of(file.up)},
+          {"up", name_of(file.up)},
           {"plate", file.heap.plate},
           {"plate_from", file.heap.is_plate_given ? "given" : "found"},
           {"below_plate", file.heap.below_plate},
@@ -422,7 +422,9 @@ Json positions_json(const std::optional<calibrate::MeasuredPositions>& positions
           {"views", views}};
 }
 
-Json picture_json(const MeasuredPicture& picture) {
+}  // namespace
+
+Json measured_json(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Json json{{"file", picture.file},
             {"copy_of", picture.copy_of.empty() ? Json() : Json(picture.copy_of)},
@@ -465,10 +467,8 @@ Json picture_json(const MeasuredPicture& picture) {
   return json;
 }
 
-}  // namespace
-
 std::string measure_json(const std::vector<MeasuredPicture>& pictures) {
-  return json_text(pictures, picture_json);
+  return json_text(pictures, measured_json);
 }
 
-}  // namespace repose::cli
+}  // namespace repose::calibrate

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "calibrate/experiment/picture_set.h"
-#include "cli/measure/measure.h"
+#include "calibrate/measured/measured_file.h"
 #include "vision/measure/repose_angle.h"
 
-namespace repose::cli {
+namespace repose::calibrate {
 
 /// A picture of the set that is far from the others.
 struct NamedOutlier {
@@ -18,26 +18,26 @@ struct NamedOutlier {
 };
 
 /// Pictures and films taken as repeats of one experiment: of a film its heap at rest alone.
-struct Summary {
-  calibrate::PictureSet pictures;
+struct MeasuredSet {
+  PictureSet pictures;
   std::vector<NamedOutlier> outliers;
   int not_read = 0;
   int copies = 0;  ///< of pictures that are counted
   int scans = 0;   ///< among those that are counted
   /// Of the scans in silhouette, as compare and studies take them.
-  calibrate::PictureSet silhouettes = {};
+  PictureSet silhouettes = {};
 };
 
-Summary summarise(const std::vector<MeasuredPicture>& pictures);
+MeasuredSet measured_set(const std::vector<MeasuredPicture>& pictures);
 
-/// Warns of each picture that is an outlier among them (calibrate::set_of_pictures), with the code
+/// Warns of each picture that is an outlier among them (set_of_pictures), with the code
 /// `outlier`.
 void name_outliers(std::vector<MeasuredPicture>& pictures);
 
 /// "mean 23.38° sd 0.72° n = 10, ..." and what was flagged or left out.
-std::string summary_text(const Summary& summary);
+std::string text_of_set(const MeasuredSet& summary);
 
 /// The same as a JSON object, with what the angles are by.
-std::string summary_json(const Summary& summary, const vision::MeasureOptions& options);
+std::string set_json(const MeasuredSet& summary, const vision::MeasureOptions& options);
 
-}  // namespace repose::cli
+}  // namespace repose::calibrate

@@ -1,4 +1,4 @@
-#include "cli/measure/summary.h"
+#include "calibrate/measured/measured_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,13 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-namespace repose::cli {
+namespace repose::calibrate {
 namespace {
 
 /// More digits than any camera resolves, without the noise of the conversion.
 double rounded(double angle_deg) { return std::round(angle_deg * 1e6) / 1e6; }
 
-std::string mean_text(const calibrate::Summary& mean) {
+std::string mean_text(const Summary& mean) {
   const auto& [n, middle, sd, uncertainty] = mean;
   if (!sd || !uncertainty) return fmt::format("{:.2f}° only one heap: no scatter", middle);
   return fmt::format(
@@ -23,7 +23,7 @@ std::string mean_text(const calibrate::Summary& mean) {
 }
 
 /// Beside the first, which says what these are.
-std::string other_text(const char* what, const calibrate::Summary& mean) {
+std::string other_text(const char* what, const Summary& mean) {
   const auto& [n, middle, sd, uncertainty] = mean;
   if (!sd || !uncertainty) return fmt::format("\n{}: {:.2f}° n = 1", what, middle);
   return fmt::format("\n{}: {:.2f}° sd {:.2f}° n = {}, 95 % {:.2f} … {:.2f}°", what, middle, *sd, n,
@@ -31,13 +31,12 @@ std::string other_text(const char* what, const calibrate::Summary& mean) {
 }
 
 /// Whether one of them has other pictures in it than the other.
-bool is_other(const std::optional<calibrate::Summary>& one,
-              const std::optional<calibrate::Summary>& other) {
+bool is_other(const std::optional<Summary>& one, const std::optional<Summary>& other) {
   return one && (!other || one->n != other->n || one->mean != other->mean);
 }
 
 /// The same mean without what a reader may not want in it, and with what was left out.
-std::string other_means(const calibrate::PictureSet& set) {
+std::string other_means(const PictureSet& set) {
   std::string text;
   if (set.flagged > 0 && !set.ok_deg) {
     text += "\nno picture is ok: all in the mean are flagged";
@@ -50,7 +49,7 @@ std::string other_means(const calibrate::PictureSet& set) {
   return text;
 }
 
-std::string heaps_text(const calibrate::PictureSet& set) {
+std::string heaps_text(const PictureSet& set) {
   std::string text;
   if (set.within_sd_deg && set.heaps_deg) {
     text += fmt::format(
@@ -60,7 +59,7 @@ std::string heaps_text(const calibrate::PictureSet& set) {
     if (set.between_sd_deg) {
       text += fmt::format(", the heaps themselves by sd {:.2f}°", *set.between_sd_deg);
     }
-    for (const calibrate::HeapOfSet& heap : set.heaps) {
+    for (const HeapOfSet& heap : set.heaps) {
       text += fmt::format("\nheap {}: {:.2f} ± {:.2f}° by {} {}", heap.name, heap.angle_deg,
                           heap.within_deg.value_or(0), heap.pictures,
                           heap.pictures == 1 ? "picture" : "pictures");
@@ -74,8 +73,8 @@ std::string heaps_text(const calibrate::PictureSet& set) {
   return text;
 }
 
-std::string remarks_on(const Summary& summary) {
-  const calibrate::PictureSet& set = summary.pictures;
+std::string remarks_on(const MeasuredSet& summary) {
+  const PictureSet& set = summary.pictures;
   std::string text;
   if (set.flagged > 0) text += fmt::format("\n{} of these flagged: look at them", set.flagged);
   std::vector<std::string> left_out;
@@ -100,7 +99,7 @@ std::string remarks_on(const Summary& summary) {
 }
 
 /// The angle of a scan is not that of pictures.
-std::string scans_text(const Summary& summary) {
+std::string scans_text(const MeasuredSet& summary) {
   if (summary.scans == 0) return "";
   std::string text;
   if (summary.scans < summary.pictures.pictures) {
@@ -118,11 +117,11 @@ std::string scans_text(const Summary& summary) {
 
 }  // namespace
 
-Summary summarise(const std::vector<MeasuredPicture>& pictures) {
-  Summary summary;
-  std::vector<calibrate::SetPicture> set;
+MeasuredSet measured_set(const std::vector<MeasuredPicture>& pictures) {
+  MeasuredSet summary;
+  std::vector<SetPicture> set;
   std::vector<const MeasuredPicture*> from;
-  std::vector<calibrate::SetPicture> silhouettes;
+  std::vector<SetPicture> silhouettes;
   for (const MeasuredPicture& picture : pictures) {
     if (is_of_series(picture)) continue;
     if (!picture.copy_of.empty()) {
@@ -130,18 +129,18 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
       continue;
     }
     if (picture.outcome == Outcome::measured) {
-      set.push_back(calibrate::set_picture_of(picture.angle, picture.heap));
+      set.push_back(set_picture_of(picture.angle, picture.heap));
       from.push_back(&picture);
       if (!picture.scan || !picture.silhouettes) continue;
       summary.scans += picture.angle.angle_rad ? 1 : 0;
-      silhouettes.push_back(calibrate::set_picture_of(picture.silhouettes->angle, picture.heap));
+      silhouettes.push_back(set_picture_of(picture.silhouettes->angle, picture.heap));
     } else {
       ++summary.not_read;
     }
   }
-  summary.pictures = calibrate::set_of_pictures(set);
-  if (!silhouettes.empty()) summary.silhouettes = calibrate::set_of_pictures(silhouettes);
-  for (const calibrate::OutlyingPicture& outlier : summary.pictures.outliers) {
+  summary.pictures = set_of_pictures(set);
+  if (!silhouettes.empty()) summary.silhouettes = set_of_pictures(silhouettes);
+  for (const OutlyingPicture& outlier : summary.pictures.outliers) {
     summary.outliers.push_back({.file = from[outlier.place]->file,
                                 .angle_deg = *set[outlier.place].angle_deg,
                                 .score = outlier.score,
@@ -151,7 +150,7 @@ Summary summarise(const std::vector<MeasuredPicture>& pictures) {
 }
 
 void name_outliers(std::vector<MeasuredPicture>& pictures) {
-  const Summary summary = summarise(pictures);
+  const MeasuredSet summary = measured_set(pictures);
   for (std::size_t k = 0; k < summary.outliers.size(); ++k) {
     const auto named = std::ranges::find_if(pictures, [&](const MeasuredPicture& picture) {
       return picture.file == summary.outliers[k].file && !is_of_series(picture);
@@ -162,8 +161,8 @@ void name_outliers(std::vector<MeasuredPicture>& pictures) {
   }
 }
 
-std::string summary_text(const Summary& summary) {
-  const calibrate::PictureSet& set = summary.pictures;
+std::string text_of_set(const MeasuredSet& summary) {
+  const PictureSet& set = summary.pictures;
   const std::string remarks = heaps_text(set) + remarks_on(summary) + other_means(set);
   if (!set.heaps_deg) return "no mean: no picture could be measured" + remarks;
   return "mean " + mean_text(*set.heaps_deg) + remarks + scans_text(summary);
@@ -171,7 +170,7 @@ std::string summary_text(const Summary& summary) {
 
 namespace {
 
-nlohmann::ordered_json mean_json(const std::optional<calibrate::Summary>& of) {
+nlohmann::ordered_json mean_json(const std::optional<Summary>& of) {
   nlohmann::ordered_json json{
       {"n", 0}, {"mean_deg", nullptr}, {"sd_deg", nullptr}, {"interval_deg", nullptr}};
   if (!of) return json;
@@ -185,7 +184,7 @@ nlohmann::ordered_json mean_json(const std::optional<calibrate::Summary>& of) {
   return json;
 }
 
-nlohmann::ordered_json heap_json(const calibrate::HeapOfSet& heap) {
+nlohmann::ordered_json heap_json(const HeapOfSet& heap) {
   nlohmann::ordered_json json{{"name", heap.name},
                               {"pictures", heap.pictures},
                               {"angle_deg", rounded(heap.angle_deg)},
@@ -200,8 +199,8 @@ nlohmann::ordered_json heap_json(const calibrate::HeapOfSet& heap) {
 
 }  // namespace
 
-std::string summary_json(const Summary& summary, const vision::MeasureOptions& options) {
-  const calibrate::PictureSet& set = summary.pictures;
+std::string set_json(const MeasuredSet& summary, const vision::MeasureOptions& options) {
+  const PictureSet& set = summary.pictures;
   nlohmann::ordered_json json = mean_json(set.heaps_deg);
   const std::string definition = options.named_definition();
   json["definition"] = nullptr;
@@ -212,7 +211,7 @@ std::string summary_json(const Summary& summary, const vision::MeasureOptions& o
   json["between_heaps_sd_deg"] = nullptr;
   if (set.between_sd_deg) json["between_heaps_sd_deg"] = rounded(*set.between_sd_deg);
   json["heaps"] = nlohmann::ordered_json::array();
-  for (const calibrate::HeapOfSet& heap : set.heaps) json["heaps"].push_back(heap_json(heap));
+  for (const HeapOfSet& heap : set.heaps) json["heaps"].push_back(heap_json(heap));
   json["camera_deg"] = nullptr;
   if (set.heaps_deg) json["camera_deg"] = rounded(set.camera_deg);
   json["ok"] = mean_json(set.ok_deg);
@@ -234,4 +233,4 @@ std::string summary_json(const Summary& summary, const vision::MeasureOptions& o
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
-}  // namespace repose::cli
+}  // namespace repose::calibrate

@@ -12,9 +12,9 @@
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
-/// What the results of several commands have in common.
+/// What results of several kinds have in common as JSON.
 
-namespace repose::cli {
+namespace repose {
 
 /// For files: more digits than any camera resolves, without the noise of the conversion.
 inline double rounded_degrees(double angle_rad) {
@@ -63,4 +63,4 @@ inline nlohmann::ordered_json warnings_json(const std::vector<vision::Warning>& 
   return json;
 }
 
-}  // namespace repose::cli
+}  // namespace repose

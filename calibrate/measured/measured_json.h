@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "calibrate/measured/measured_file.h"
+
+namespace repose::calibrate {
+
+/// A header and a row for each picture, quoted by RFC 4180. What does not exist is empty.
+std::string measure_csv(const std::vector<MeasuredPicture>& pictures);
+
+/// An object with all that is known of a picture. A number that does not exist is null.
+nlohmann::ordered_json measured_json(const MeasuredPicture& picture);
+
+/// An array with these objects.
+std::string measure_json(const std::vector<MeasuredPicture>& pictures);
+
+}  // namespace repose::calibrate
