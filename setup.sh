@@ -23,17 +23,18 @@ needed="g++ cmake ninja-build pkg-config
   libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libheif-dev libexif-dev libcsv-dev
   zlib1g-dev libcairo2-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev fonts-dejavu-core"
+  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev libcpp-httplib-dev
+  fonts-dejavu-core"
 # npm may also come from elsewhere than Debian.
 command -v npm >/dev/null || needed="$needed npm"
-node_packages=calibrate/report
+node_packages="calibrate/report studio/page"
 tests=OFF
 if [ "${1-}" = --tests ]; then
   needed="$needed libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-22 clang-22
     libclang-rt-22-dev lld-22 llvm-22 ccache
     libopenmpi-dev openmpi-bin chromium python3-jsonschema zsh groff-base"
   tests=ON
-  node_packages="$node_packages tests/report"
+  node_packages="$node_packages tests"
   shift
 fi
 preset=release

@@ -33,6 +33,7 @@
 #include "cli/shape/shape.h"
 #include "cli/simulate/simulate_command.h"
 #include "cli/statistics/statistics_commands.h"
+#include "cli/studio/studio.h"
 #include "cli/track/track.h"
 #include "cli/verify/verify.h"
 
@@ -178,7 +179,7 @@ std::vector<Command> all_commands() {
       track_command(),   shape_command(),   simulate_command(),  render_command(),
       new_command(),     plan_command(),    calibrate_command(), report_command(),
       export_command(),  predict_command(), ask_command(),       bench_command(),
-      design_command(),  regress_command(), verify_command()};
+      design_command(),  regress_command(), verify_command(),    studio_command()};
   const std::vector<Command> of_help = help_commands(commands);
   commands.insert(commands.end(), of_help.begin(), of_help.end());
   return commands;

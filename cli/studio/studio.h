@@ -1,0 +1,9 @@
+#pragma once
+
+#include "cli/common/command.h"
+
+namespace repose::cli {
+
+Command studio_command();
+
+}  // namespace repose::cli

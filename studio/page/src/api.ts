@@ -1,0 +1,136 @@
+// What the program answers: its own results, as its JSON files have them (docs/json.md), and what the
+// page draws. Nothing is computed here that the program computes.
+
+export type Box = [number, number, number, number];
+export type Line = [number, number, number, number];
+export type Place = [number, number];
+
+// What a person has said of a picture; places in the pixels of the turned picture.
+export interface Told {
+  rotate_deg: number;
+  heap: Box | null;
+  half: 'left' | 'right' | null;
+  ground: Line | null;
+  keep: Place[];
+  drop: Place[];
+  exclude: Box[];
+  scale: {line: Line; length_mm: number | null} | null;  // null: still to be said
+  board: boolean;
+  pitch_deg: number | null;
+  window: [number, number];
+  definition: string | null;
+}
+
+export interface Side {
+  status: string;
+  angle_deg: number | null;
+  uncertainty_deg: number | null;
+  reason?: string;
+}
+
+export interface Measured {
+  file: string;
+  status: 'ok' | 'flagged' | 'refused';
+  angle_deg: number | null;
+  uncertainty_deg: number | null;
+  left: Side | null;
+  right: Side | null;
+  definition: string | null;
+  window: [number, number] | null;
+  warnings: {code: string; message: string}[];
+  reason?: string;
+  mm_per_px: number | null;
+  height_mm: number | null;
+  height_mm_uncertainty: number | null;
+  base_mm: number | null;
+  base_mm_uncertainty: number | null;
+  camera: unknown;
+}
+
+export interface SideMarks {
+  line: Line | null;
+  apron_line: Line | null;
+}
+
+export interface Marks {
+  width: number;
+  height: number;
+  outline: Place[];
+  ground: Line | null;
+  left: SideMarks;
+  right: SideMarks;
+}
+
+export interface Answer {
+  measured: Measured;
+  told: Told | null;  // null of scans and files of particles
+  marks: Marks | null;
+  command: string;
+  proposed: Told | null;
+}
+
+export interface FileEntry {
+  file: string;
+  kind: 'picture' | 'film' | 'scan' | 'particles';
+  version: string;
+  has_hints: boolean;
+}
+
+export interface Folder {
+  folder: string;
+  program: string;
+  definitions: {name: string; description: string}[];
+  files: FileEntry[];
+}
+
+export interface Mean {
+  n: number;
+  mean_deg: number | null;
+  sd_deg: number | null;
+  interval_deg: [number, number] | null;
+}
+
+export interface SetSummary extends Mean {
+  ok: Mean;
+  all: Mean;
+  flagged: number;
+  refused: number;
+  not_read: number;
+  copies: number;
+  outliers: {file: string; angle_deg: number; score: number; counted: boolean}[];
+}
+
+const asked = async <T>(address: string, options: RequestInit = {}): Promise<T> => {
+  let response: Response;
+  try {
+    response = await fetch(address, options);
+  } catch {
+    throw new Error('repose studio does not answer: it has ended. Start it again, and open its new address.');
+  }
+  const text = await response.text();
+  if (response.status === 403) throw new Error(text);
+  const json = JSON.parse(text) as T & {error?: string};
+  if (!response.ok) throw new Error(json.error ?? `the studio answered ${response.status}`);
+  return json;
+};
+
+const named = (path: string, file: string) => `${path}?file=${encodeURIComponent(file)}`;
+
+// A line without its length is no scale yet.
+const sent = (told: Told) => JSON.stringify(told.scale?.length_mm === null ? {...told, scale: null} : told);
+
+export const api = {
+  folder: () => asked<Folder>('/api/folder'),
+  set: () => asked<SetSummary>('/api/set'),
+  measured: (file: string) => asked<Answer>(named('/api/measured', file)),
+  measure: (file: string, told: Told) =>
+    asked<Answer>(named('/api/measure', file), {method: 'POST', body: sent(told)}),
+  save: (file: string, told: Told) =>
+    asked<Answer>(named('/api/hints', file), {method: 'PUT', body: sent(told)}),
+  forget: (file: string) => asked<Answer>(named('/api/hints', file), {method: 'DELETE'}),
+  add: (file: File) => asked<{file: string}>(named('/api/file', file.name), {method: 'POST', body: file}),
+  // The version makes the browser fetch a picture again that has changed.
+  picture: (entry: FileEntry, side: number, rotate_deg: number) =>
+    `${named('/api/picture', entry.file)}&side=${side}&turns=${rotate_deg / 90}&version=${encodeURIComponent(entry.version)}`,
+  overlay: (file: string) => named('/api/overlay', file),
+};

@@ -1,0 +1,19 @@
+// How results are said.
+import type {Mean, Measured} from './api';
+
+export const angleText = (measured: Pick<Measured, 'angle_deg' | 'uncertainty_deg'>) => {
+  if (measured.angle_deg === null) return 'no angle';
+  const angle = measured.angle_deg.toFixed(2);
+  return measured.uncertainty_deg === null ? `${angle}°` : `${angle} ± ${measured.uncertainty_deg.toFixed(2)}°`;
+};
+
+export const lengthText = (value: number | null, half: number | null) =>
+  value === null ? '–' : `${value.toFixed(1)}${half === null ? '' : ` ± ${half.toFixed(1)}`} mm`;
+
+export const meanText = (mean: Mean) => {
+  if (mean.mean_deg === null) return 'no mean: no picture has an angle';
+  const middle = `mean ${mean.mean_deg.toFixed(2)}°`;
+  if (mean.sd_deg === null || mean.interval_deg === null) return `${middle}, n = ${mean.n}: no scatter of one heap`;
+  const [low, high] = mean.interval_deg;
+  return `${middle}, sd ${mean.sd_deg.toFixed(2)}°, n = ${mean.n}, 95 % interval of the mean ${low.toFixed(2)} … ${high.toFixed(2)}° (Student)`;
+};

@@ -1,0 +1,352 @@
+#include "studio/picture_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/angle_definition.h"
+#include "base/atomic_file.h"
+#include "base/input_error.h"
+#include "base/text.h"
+#include "calibrate/measured/measured_command.h"
+#include "calibrate/measured/measured_json.h"
+#include "calibrate/measured/measured_set.h"
+#include "calibrate/report/measure_report.h"
+#include "studio/told_json.h"
+#include "vision/drawing/overlay.h"
+#include "vision/files/file_list.h"
+#include "vision/film/film_angle.h"
+#include "vision/picture/picture.h"
+#include "vision/scan/scan_file.h"
+
+namespace repose::studio {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = PictureFolder::Json;
+
+/// What faults and advice call what can be told: the page's tools.
+constexpr std::array<base::FieldName, 9> kTools{
+    {{"excluded box", "Leave out"},
+     {"camera pitch", "Camera pitch"},
+     {"heap box", "Box"},
+     {"ground points", "Ground"},
+     {"point to keep", "Keep"},
+     {"point to drop", "Drop"},
+     {"camera file", "--camera-file on the command line"},
+     {"unit", "--unit mm on the command line"},
+     {"ground plane", "--ground-plane on the command line"}}};
+
+const char* kind_of(const fs::path& file) {
+  if (vision::has_film_ending(file)) return "film";
+  if (vision::has_scan_ending(file)) return "scan";
+  return vision::has_picture_ending(file) ? "picture" : "particles";
+}
+
+bool is_photograph(const fs::path& file) {
+  return vision::has_film_ending(file) || vision::has_picture_ending(file);
+}
+
+/// Changes with the file: its size and the time of its last change; "" where there is none.
+std::string state_of(const fs::path& file) {
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  if (error) return {};
+  const auto time = fs::last_write_time(file, error);
+  return fmt::format("{}-{}", size, time.time_since_epoch().count());
+}
+
+std::string version_of(const fs::path& file) {
+  return state_of(file) + '+' + state_of(vision::hint_file_of(file));
+}
+
+std::vector<fs::path> files_of(const fs::path& folder) {
+  // Files alone: a folder without any is none that is wrong.
+  return vision::list_heap_files({folder.string()}).files;
+}
+
+}  // namespace
+
+/// What is known of a file in one version.
+struct PictureFolder::Kept {
+  std::mutex mutex;
+  std::string version;
+  calibrate::MeasuredPicture measured;
+  Json answer;
+};
+
+PictureFolder::PictureFolder(fs::path folder) : folder_(std::move(folder)) {
+  std::error_code ignored;
+  if (fs::is_directory(folder_, ignored)) return;
+  base::refuse(folder_, "there is no such folder", "name the folder with your pictures.");
+}
+
+Json PictureFolder::list() const {
+  Json files = Json::array();
+  for (const fs::path& file : files_of(folder_)) {
+    std::error_code ignored;
+    files.push_back({{"file", file.filename().string()},
+                     {"kind", kind_of(file)},
+                     {"version", version_of(file)},
+                     {"has_hints", fs::exists(vision::hint_file_of(file), ignored)}});
+  }
+  Json definitions = Json::array();
+  for (const base::AngleDefinition& definition : base::kAngleDefinitions) {
+    definitions.push_back({{"name", definition.name}, {"description", definition.description}});
+  }
+  std::error_code ignored;
+  return {{"folder", fs::absolute(folder_, ignored).lexically_normal().string()},
+          {"definitions", definitions},
+          {"files", files}};
+}
+
+fs::path PictureFolder::path_of(const std::string& file) const {
+  for (const fs::path& known : files_of(folder_)) {
+    if (known.filename().string() == file) return known;
+  }
+  throw base::InputError({.where = base::printable(file),
+                          .value = "there is no such picture in the folder",
+                          .fix = "load the page again."});
+}
+
+PictureFolder::Opened PictureFolder::opened(const fs::path& path, const std::string& version,
+                                            const vision::PictureSettings& told) {
+  constexpr std::size_t kMost = 4;
+  // What is told of a film says which of its frames are of a heap at rest.
+  const std::string key = path.string() + '\n' + version;
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto found = opened_.begin(); found != opened_.end(); ++found) {
+      if (found->first != key) continue;
+      opened_.splice(opened_.begin(), opened_, found);
+      return found->second;
+    }
+  }
+  auto read = std::make_shared<const calibrate::OpenedPicture>(calibrate::open_picture(path, told));
+  const std::lock_guard lock(mutex_);
+  opened_.emplace_front(key, read);
+  if (opened_.size() > kMost) opened_.pop_back();
+  return read;
+}
+
+namespace {
+
+/// What the page is told of a photograph.
+Json answer_of(const calibrate::MeasuredAgain& again) {
+  const calibrate::MeasuredPicture& measured = again.measured;
+  Json answer{{"measured", calibrate::measured_json(measured)},
+              {"told", told_json(measured.told)},
+              {"marks", marks_json(again)},
+              {"command", calibrate::measure_command(measured)},
+              {"proposed", nullptr}};
+  if (measured.proposal) {
+    answer["proposed"] = told_json(calibrate::with_proposal(measured.told, *measured.proposal));
+  }
+  return answer;
+}
+
+/// Of a scan or a file of particles, of which nothing can be told here.
+Json answer_of(const calibrate::MeasuredPicture& measured) {
+  return {{"measured", calibrate::measured_json(measured)},
+          {"told", nullptr},
+          {"marks", nullptr},
+          {"command", calibrate::measure_command(measured)},
+          {"proposed", nullptr}};
+}
+
+calibrate::MeasuredPicture unread(const fs::path& file, const base::InputError& error) {
+  calibrate::MeasuredPicture measured;
+  measured.file = file.string();
+  measured.outcome = calibrate::Outcome::bad_input;
+  measured.error = base::naming_file(file.string(), base::text_of(error.faults(), kTools));
+  return measured;
+}
+
+void drop_outline(calibrate::MeasuredPicture& measured) {
+  measured.angle.outline = {};
+  measured.angle.upper_edge = {};
+  measured.angle.left.edge = {};
+  measured.angle.right.edge = {};
+}
+
+}  // namespace
+
+std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const std::string& file) {
+  const fs::path path = path_of(file);
+  const std::string version = version_of(path);
+  std::shared_ptr<Kept> kept;
+  {
+    const std::lock_guard lock(mutex_);
+    auto& place = kept_[file];
+    if (!place) place = std::make_shared<Kept>();
+    kept = place;
+  }
+  const std::lock_guard lock(kept->mutex);
+  if (kept->version == version) return kept;
+  if (!is_photograph(path)) {
+    const calibrate::FileMeasuring plan{
+        .pictures = {path}, .keeps_overlays = true, .fields = kTools};
+    kept->measured = calibrate::measure_file(plan, 0, [](double) {}).front();
+    kept->answer = answer_of(kept->measured);
+  } else {
+    try {
+      const vision::PictureSettings told = vision::with_saved_hints({}, path);
+      const Opened picture = opened(path, version, told);
+      calibrate::MeasuredAgain again = calibrate::measure_opened(*picture, told, true, kTools);
+      again.measured.pixels = vision::pixels_of(picture->picture);
+      kept->answer = answer_of(again);
+      kept->measured = std::move(again.measured);
+    } catch (const base::InputError& error) {
+      kept->measured = unread(path, error);
+      kept->answer = answer_of(kept->measured);
+    }
+  }
+  drop_outline(kept->measured);
+  kept->version = version;
+  return kept;
+}
+
+Json PictureFolder::measured(const std::string& file) {
+  const auto kept = this->kept(file);
+  const std::lock_guard lock(kept->mutex);
+  return kept->answer;
+}
+
+Json PictureFolder::measured_as(const std::string& file, const Json& told) {
+  const fs::path path = path_of(file);
+  if (!is_photograph(path)) {
+    throw base::InputError({.where = file, .value = "nothing can be told of it here"});
+  }
+  const vision::PictureSettings saved = vision::with_saved_hints({}, path);
+  const vision::PictureSettings settings = with_told(saved, told);
+  return answer_of(
+      calibrate::measure_opened(*opened(path, version_of(path), saved), settings, false, kTools));
+}
+
+Json PictureFolder::save(const std::string& file, const Json& told) {
+  const fs::path path = path_of(file);
+  if (!is_photograph(path)) {
+    throw base::InputError({.where = file, .value = "nothing can be told of it here"});
+  }
+  vision::save_hints(with_told(vision::with_saved_hints({}, path), told), path);
+  return measured(file);
+}
+
+Json PictureFolder::forget(const std::string& file) {
+  const fs::path hints = vision::hint_file_of(path_of(file));
+  std::error_code error;
+  fs::remove(hints, error);
+  if (error) {
+    base::refuse(hints, "it cannot be removed: " + error.message(), "see who may write there.");
+  }
+  return measured(file);
+}
+
+calibrate::MeasuredAgain PictureFolder::again(const std::string& file) {
+  const fs::path path = path_of(file);
+  const vision::PictureSettings told = vision::with_saved_hints({}, path);
+  return calibrate::measure_opened(*opened(path, version_of(path), told), told, false, kTools);
+}
+
+PictureFolder::Bytes PictureFolder::picture(const std::string& file, int side_px, int turn_deg) {
+  constexpr int kQuality = 88;
+  const fs::path path = path_of(file);
+  if (!is_photograph(path)) {
+    const auto kept = this->kept(file);
+    const std::lock_guard lock(kept->mutex);
+    return kept->measured.overlay.bytes;
+  }
+  const vision::PictureSettings told = vision::with_saved_hints({}, path);
+  // Marks lie where the lens's distortion is taken out.
+  if (told.scale.lens)
+    return vision::jpeg_of(vision::reduced(again(file).picture, side_px), kQuality);
+  const Opened picture = opened(path, version_of(path), told);
+  return vision::jpeg_of(vision::turned(vision::reduced(picture->picture, side_px), turn_deg),
+                         kQuality);
+}
+
+PictureFolder::Bytes PictureFolder::overlay(const std::string& file) {
+  if (!is_photograph(path_of(file))) return picture(file, 0, 0);
+  const calibrate::MeasuredAgain shown = again(file);
+  constexpr int kQuality = 92;
+  return vision::jpeg_of(vision::draw_overlay(shown.picture, shown.measured.angle, shown.notes),
+                         kQuality);
+}
+
+std::string PictureFolder::add(const std::string& name, std::string_view content) {
+  const fs::path asked = name;
+  const bool is_plain = !name.empty() && name.front() != '.' && base::is_utf8(name) &&
+                        base::printable(name) == name &&
+                        name.find_first_of("/\\:") == std::string::npos;
+  const bool is_known = vision::has_picture_ending(asked) || vision::has_film_ending(asked) ||
+                        vision::has_scan_ending(asked);
+  if (!is_plain || !is_known) {
+    throw base::InputError(
+        {.where = base::printable(name),
+         .value = "it is not taken",
+         .rule = "a picture (JPEG, HEIC, AVIF, PNG, TIFF, BMP, WebP), a film (MP4, MOV, AVI, MKV, "
+                 "WebM, GIF) or a scan (PLY, OBJ, STL, GLB), by its name",
+         .fix = "look for the file that the camera has written."});
+  }
+  const std::lock_guard lock(mutex_);
+  fs::path free = folder_ / asked;
+  std::error_code ignored;
+  for (int number = 2; fs::exists(free, ignored); ++number) {
+    free =
+        folder_ / fmt::format("{}-{}{}", asked.stem().string(), number, asked.extension().string());
+  }
+  base::write_whole_file(free, content);
+  return free.filename().string();
+}
+
+std::vector<calibrate::MeasuredPicture> PictureFolder::all() {
+  std::vector<calibrate::MeasuredPicture> pictures;
+  std::vector<fs::path> files = files_of(folder_);
+  std::vector<std::string> pixels;
+  for (const fs::path& file : files) {
+    const auto kept = this->kept(file.filename().string());
+    const std::lock_guard lock(kept->mutex);
+    pictures.push_back(kept->measured);
+    pixels.push_back(kept->measured.pixels);
+  }
+  const auto first_of = vision::copies_among(files, pixels);
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    if (first_of[k]) pictures[k].copy_of = files[*first_of[k]].string();
+  }
+  calibrate::name_outliers(pictures);
+  return pictures;
+}
+
+std::string PictureFolder::set() { return calibrate::set_json(calibrate::measured_set(all()), {}); }
+
+std::string PictureFolder::csv() { return calibrate::measure_csv(all()); }
+
+std::string PictureFolder::report() {
+  std::vector<calibrate::report::MeasuredPhotograph> shown;
+  const std::vector<calibrate::MeasuredPicture> pictures = all();
+  for (const calibrate::MeasuredPicture& picture : pictures) {
+    if (!picture.copy_of.empty()) continue;
+    calibrate::report::MeasuredPhotograph photograph{
+        .file = picture.file,
+        .error = picture.outcome == calibrate::Outcome::measured ? "" : picture.error,
+        .angle = picture.angle,
+        .overlay = picture.overlay};
+    if (is_photograph(picture.file) && photograph.error.empty()) {
+      const calibrate::MeasuredAgain drawn = again(fs::path(picture.file).filename().string());
+      photograph.overlay = calibrate::report::overlay_for_page(drawn.picture, drawn.measured.angle,
+                                                               drawn.notes, pictures.size());
+    }
+    shown.push_back(std::move(photograph));
+  }
+  return calibrate::report::measure_report(shown).html;
+}
+
+}  // namespace repose::studio

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "calibrate/measured/measured_file.h"
+#include "vision/hints/hint_file.h"
+
+namespace repose::studio {
+
+/// The pictures, films, scans and files of particles of one folder, measured when somebody looks at
+/// them. What was measured is kept until its file, or what is saved beside it, changes. Several
+/// threads may ask at once.
+///
+/// Files are known by their names in the folder: no other name leads anywhere.
+/// All of it throws base::InputError for a name that is not there.
+class PictureFolder {
+ public:
+  using Json = nlohmann::ordered_json;
+  using Bytes = std::vector<std::uint8_t>;
+
+  /// @throws base::InputError  it is no folder.
+  explicit PictureFolder(std::filesystem::path folder);
+
+  /// `folder`, `definitions` of the angle [{`name`, `description`}], and `files` [{`file`, `kind`,
+  /// `version`, `has_hints`}]; the version changes with the file and with what is saved beside it.
+  /// Copies and subfolders are not looked for.
+  Json list() const;
+
+  /// As `repose measure --json` has it, in `measured`; with `told`, `marks` (told_json.h),
+  /// `command` and, of a refused picture, `proposed`, what the proposal would make of `told`.
+  Json measured(const std::string& file);
+  /// The same by what the page tells, which is not saved. Nothing is proposed.
+  Json measured_as(const std::string& file, const Json& told);
+  /// Saves what the page tells beside the file, and measures by it. Window and definition are not
+  /// of one picture, and are not saved.
+  Json save(const std::string& file, const Json& told);
+  /// Removes what is saved beside the file, and measures without it.
+  Json forget(const std::string& file);
+
+  /// A JPEG of the picture as it is measured when turned so, its longer side at most so long.
+  Bytes picture(const std::string& file, int side_px, int turn_deg);
+  /// A JPEG with what was measured drawn in, as `repose measure --overlay` draws it.
+  Bytes overlay(const std::string& file);
+
+  /// Puts a file into the folder, under another name where its own is taken; none is replaced.
+  /// @returns the name
+  /// @throws base::InputError  it cannot be written, or its name is not one of a picture, a film or
+  ///   a scan.
+  std::string add(const std::string& name, std::string_view content);
+
+  /// All files as repeats, as `repose measure --summary` has it.
+  std::string set();
+  std::string csv();
+  std::string report();
+
+ private:
+  struct Kept;
+  using Opened = std::shared_ptr<const calibrate::OpenedPicture>;
+
+  std::filesystem::path path_of(const std::string& file) const;
+  std::shared_ptr<Kept> kept(const std::string& file);
+  Opened opened(const std::filesystem::path& path, const std::string& version,
+                const vision::PictureSettings& told);
+  calibrate::MeasuredAgain again(const std::string& file);
+  std::vector<calibrate::MeasuredPicture> all();
+
+  const std::filesystem::path folder_;
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Kept>> kept_;
+  /// Those that were looked at last, the latest first; some, for pictures are large.
+  std::list<std::pair<std::string, Opened>> opened_;
+};
+
+}  // namespace repose::studio

@@ -1,0 +1,269 @@
+#include "studio/server.h"
+
+#include <charconv>
+#include <exception>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+#include "base/version.h"
+#include "studio/access.h"
+#include "studio/http.h"
+#include "studio/picture_folder.h"
+
+namespace repose::studio {
+
+namespace page {
+
+std::string_view embedded_file(std::string_view name);
+
+}  // namespace page
+
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+using Json = PictureFolder::Json;
+
+constexpr const char* kHost = "127.0.0.1";
+constexpr const char* kJson = "application/json";
+constexpr std::size_t kLargestUpload_bytes = std::size_t{128} << 20;
+
+std::string text_of(const Json& json) {
+  // File names need not be UTF-8, JSON must be.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void refuse(Response& response, int status, const std::string& why) {
+  response.status = status;
+  response.set_content(text_of({{"error", why}}), kJson);
+}
+
+/// What a request names; faults of it are the caller's.
+std::string file_in(const Request& request) { return request.get_param_value("file"); }
+
+int number_in(const Request& request, const char* name, int from, int to, int otherwise) {
+  if (!request.has_param(name)) return otherwise;
+  const std::string text = request.get_param_value(name);
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < from || number > to) {
+    throw base::InputError({.where = name,
+                            .value = "is " + text,
+                            .rule = fmt::format("a whole number from {} to {}", from, to)});
+  }
+  return number;
+}
+
+Json json_in(const Request& request) {
+  Json json = Json::parse(request.body, nullptr, false);
+  if (json.is_discarded()) throw base::InputError({.value = "what was sent is no JSON"});
+  return json;
+}
+
+/// Faults of what was asked for become its answer.
+template <typename Answer>
+httplib::Server::Handler answering(const Answer& answer) {
+  return [answer](const Request& request, Response& response) {
+    try {
+      answer(request, response);
+    } catch (const base::InputError& error) {
+      refuse(response, 400, base::with_names(error.what()));
+    }
+  };
+}
+
+template <typename Ask>
+httplib::Server::Handler json_of(const Ask& ask) {
+  return answering([ask](const Request& request, Response& response) {
+    response.set_content(text_of(ask(request)), kJson);
+  });
+}
+
+void send(Response& response, const PictureFolder::Bytes& bytes, const char* type) {
+  response.set_content(reinterpret_cast<const char*>(bytes.data()), bytes.size(), type);
+}
+
+void send_file(Response& response, const std::string& name, const std::string& content,
+               const char* type) {
+  response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
+  response.set_content(content, type);
+}
+
+}  // namespace
+
+struct Server::Parts {
+  explicit Parts(const std::filesystem::path& folder) : pictures(folder) {}
+
+  PictureFolder pictures;
+  httplib::Server http;
+  std::unique_ptr<Access> access;
+  std::string address;
+
+  void guard();
+  void serve_page();
+  void serve_pictures();
+  void serve_files();
+};
+
+/// Nobody is answered but the page; and no page of others can hold this one, or read what it loads.
+void Server::Parts::guard() {
+  http.set_pre_routing_handler([this](const Request& request, Response& response) {
+    response.set_header("X-Content-Type-Options", "nosniff");
+    response.set_header("Cross-Origin-Resource-Policy", "same-origin");
+    response.set_header("Referrer-Policy", "no-referrer");
+    response.set_header("Cache-Control", "no-store");
+    response.set_header(
+        "Content-Security-Policy",
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: "
+        "blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+        "frame-ancestors 'none'");
+    const std::string host = request.get_header_value("Host");
+    const std::string origin = request.get_header_value("Origin");
+    const std::string token = request.get_param_value("token");
+    const std::string cookies = request.get_header_value("Cookie");
+    const std::string why =
+        access->refusal({.host = host, .origin = origin, .query_token = token, .cookies = cookies});
+    if (why.empty()) return httplib::Server::HandlerResponse::Unhandled;
+    response.status = 403;
+    response.set_content(why + "\n", "text/plain; charset=utf-8");
+    return httplib::Server::HandlerResponse::Handled;
+  });
+  http.set_payload_max_length(kLargestUpload_bytes);
+  // A browser keeps six connections open for each of its pages, with a thread for each.
+  http.new_task_queue = [] { return new httplib::ThreadPool(32); };
+  http.set_keep_alive_timeout(2);
+  http.set_error_handler([](const Request&, Response& response) {
+    if (!response.body.empty()) return;
+    refuse(response, response.status,
+           response.status == 413
+               ? fmt::format("it is larger than {} MB. Fix: copy it into the folder.",
+                             kLargestUpload_bytes >> 20)
+               : fmt::format("there is nothing here ({})", response.status));
+  });
+  http.set_exception_handler([](const Request&, Response& response, const std::exception_ptr& any) {
+    try {
+      std::rethrow_exception(any);
+    } catch (const std::exception& error) {
+      refuse(response, 500, fmt::format("internal error: {}", error.what()));
+    } catch (...) {
+      refuse(response, 500, "internal error");
+    }
+  });
+}
+
+/// GET /            the page; it leaves a cookie, so that it can be loaded again
+/// GET /studio.js   its parts
+/// GET /studio.css
+void Server::Parts::serve_page() {
+  http.Get("/", [this](const Request&, Response& response) {
+    response.set_header("Set-Cookie", access->cookie());
+    response.set_content(std::string(page::embedded_file("page/index.html")),
+                         "text/html; charset=utf-8");
+  });
+  http.Get("/studio.js", [](const Request&, Response& response) {
+    response.set_content(std::string(page::embedded_file("studio.js")),
+                         "text/javascript; charset=utf-8");
+  });
+  http.Get("/studio.css", [](const Request&, Response& response) {
+    response.set_content(std::string(page::embedded_file("page/studio.css")),
+                         "text/css; charset=utf-8");
+  });
+}
+
+/// All with ?file=NAME, but the first two; answers are PictureFolder's:
+///
+/// GET /api/folder      list()
+/// GET /api/set         set()
+/// GET /api/measured    measured()
+/// POST /api/measure    measured_as() what is sent
+/// PUT /api/hints       save() what is sent
+/// DELETE /api/hints    forget()
+/// POST /api/file       add() what is sent, under that name
+void Server::Parts::serve_pictures() {
+  http.Get("/api/folder", json_of([this](const Request&) {
+             Json json = pictures.list();
+             json["program"] = base::kProgram;
+             return json;
+           }));
+  http.Get("/api/set", answering([this](const Request&, Response& response) {
+             response.set_content(pictures.set(), kJson);
+           }));
+  http.Get("/api/measured",
+           json_of([this](const Request& request) { return pictures.measured(file_in(request)); }));
+  http.Post("/api/measure", json_of([this](const Request& request) {
+              return pictures.measured_as(file_in(request), json_in(request));
+            }));
+  http.Put("/api/hints", json_of([this](const Request& request) {
+             return pictures.save(file_in(request), json_in(request));
+           }));
+  http.Delete("/api/hints", json_of([this](const Request& request) {
+                return pictures.forget(file_in(request));
+              }));
+  http.Post("/api/file", json_of([this](const Request& request) {
+              return Json{{"file", pictures.add(file_in(request), request.body)}};
+            }));
+}
+
+/// GET /api/picture?file=NAME&side=PX&turns=N   picture(), turned by N quarters
+/// GET /api/overlay?file=NAME                   overlay()
+/// GET /files/angles.csv, /files/photos.html    csv(), report()
+void Server::Parts::serve_files() {
+  http.Get("/api/picture", answering([this](const Request& request, Response& response) {
+             constexpr int kSmallest_px = 16, kLargest_px = 4096, kUsual_px = 1600;
+             const int side_px = number_in(request, "side", kSmallest_px, kLargest_px, kUsual_px);
+             const int turn_deg = 90 * number_in(request, "turns", 0, 3, 0);
+             send(response, pictures.picture(file_in(request), side_px, turn_deg), "image/jpeg");
+           }));
+  http.Get("/api/overlay", answering([this](const Request& request, Response& response) {
+             send(response, pictures.overlay(file_in(request)), "image/jpeg");
+           }));
+  http.Get("/files/angles.csv", answering([this](const Request&, Response& response) {
+             send_file(response, "angles.csv", pictures.csv(), "text/csv; charset=utf-8");
+           }));
+  http.Get("/files/photos.html", answering([this](const Request&, Response& response) {
+             send_file(response, "photos.html", pictures.report(), "text/html; charset=utf-8");
+           }));
+}
+
+Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(options.folder)) {
+  Parts& parts = *parts_;
+  // A port that another studio listens at is taken, which SO_REUSEPORT, the library's choice,
+  // denies.
+  parts.http.set_socket_options([](int socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  int port = options.port;
+  if (port == 0) {
+    port = parts.http.bind_to_any_port(kHost);
+  } else if (!parts.http.bind_to_port(kHost, port)) {
+    port = -1;
+  }
+  if (port < 0) {
+    throw base::InputError({.where = "port",
+                            .value = fmt::format("{} cannot be taken", options.port),
+                            .fix = "choose another, or leave it out: one that is free is taken."});
+  }
+  parts.access = std::make_unique<Access>(new_token(), port);
+  parts.address = fmt::format("http://{}:{}/?token={}", kHost, port, parts.access->token());
+  parts.guard();
+  parts.serve_page();
+  parts.serve_pictures();
+  parts.serve_files();
+}
+
+Server::~Server() = default;
+
+const std::string& Server::address() const { return parts_->address; }
+
+void Server::run() { parts_->http.listen_after_bind(); }
+
+void Server::stop() { parts_->http.stop(); }
+
+}  // namespace repose::studio

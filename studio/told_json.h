@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "calibrate/measured/measured_file.h"
+#include "vision/hints/hint_file.h"
+
+/// What the page and the program say to each other about a picture, beside what `repose measure
+/// --json` says.
+namespace repose::studio {
+
+/// What a person has said of a picture: `rotate_deg`, `heap` [x, y, width, height], `half`,
+/// `ground` [x1, y1, x2, y2], `keep`, `drop` [[x, y], ...], `exclude` [[x, y, width, height], ...],
+/// `scale`
+/// {`line`, `length_mm`}, `board`, `pitch_deg`, `window` [from, to], `definition`. What was not
+/// said is null or an empty list.
+nlohmann::ordered_json told_json(const vision::PictureSettings& told);
+
+/// The settings with all that the page can say as it says it; a mask and a lens stay.
+/// @throws base::InputError  a key that does not exist, or a value that cannot be meant, each.
+vision::PictureSettings with_told(vision::PictureSettings settings,
+                                  const nlohmann::ordered_json& told);
+
+/// What is drawn over a picture, in its pixels: `width`, `height`, `outline`, `ground`, and of each
+/// side `line` and `apron_line`.
+nlohmann::ordered_json marks_json(const calibrate::MeasuredAgain& again);
+
+}  // namespace repose::studio

@@ -1,0 +1,220 @@
+// The studio as a browser talks to it, over HTTP.
+#include "studio/server.h"
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+#include "studio/http.h"
+#include "tests/support/heap_picture.h"
+#include "tests/support/hollow_conditions.h"
+#include "tests/support/temporary_folder.h"
+#include "vision/hints/hint_file.h"
+#include "vision/picture/picture.h"
+
+namespace repose::studio {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+using Json = nlohmann::ordered_json;
+
+/// A studio on a folder with a heap in it, and its page.
+class StudioServer : public ::testing::Test {
+ protected:
+  StudioServer() {
+    vision::write_picture(folder_.path() / "heap a.png", heap().picture);
+    server_ = std::make_unique<Server>(StudioOptions{.folder = folder_.path()});
+    thread_ = std::thread([this] { server_->run(); });
+    const std::string address = server_->address();
+    const std::size_t token = address.find("token=");
+    port_ = std::stoi(address.substr(std::string("http://127.0.0.1:").size()));
+    token_ = address.substr(token + std::string("token=").size());
+    client_ = std::make_unique<httplib::Client>("127.0.0.1", port_);
+    client_->set_read_timeout(120);
+    client_->set_default_headers({{"Cookie", "repose_" + std::to_string(port_) + "=" + token_}});
+  }
+  ~StudioServer() override {
+    server_->stop();
+    thread_.join();
+  }
+  StudioServer(const StudioServer&) = delete;
+  StudioServer& operator=(const StudioServer&) = delete;
+  StudioServer(StudioServer&&) = delete;
+  StudioServer& operator=(StudioServer&&) = delete;
+
+  static const testing::DrawnHeap& heap() {
+    static const testing::DrawnHeap drawn = testing::draw_heap(testing::hollow_power(2));
+    return drawn;
+  }
+
+  Json get(const std::string& path, int status = 200) {
+    const auto answer = client_->Get(path);
+    EXPECT_TRUE(answer) << path;
+    EXPECT_EQ(answer->status, status) << answer->body;
+    return Json::parse(answer->body);
+  }
+
+  testing::TemporaryFolder folder_;
+  std::unique_ptr<Server> server_;
+  std::thread thread_;
+  int port_ = 0;
+  std::string token_;
+  std::unique_ptr<httplib::Client> client_;
+};
+
+TEST_F(StudioServer, ShowsTheFolderAndMeasuresWhatIsInIt) {
+  const Json folder = get("/api/folder");
+  ASSERT_EQ(folder.at("files").size(), 1U);
+  EXPECT_EQ(folder.at("files").at(0).at("file"), "heap a.png");
+  EXPECT_EQ(folder.at("files").at(0).at("kind"), "picture");
+  EXPECT_GE(folder.at("definitions").size(), 5U);
+
+  const Json answer = get("/api/measured?file=heap%20a.png");
+  const Json& measured = answer.at("measured");
+  EXPECT_NE(measured.at("status"), "refused");
+  EXPECT_NEAR(measured.at("angle_deg"), *heap().mean_rad() * 57.29578, 3);
+  EXPECT_EQ(answer.at("marks").at("width"), heap().picture.width);
+  EXPECT_GT(answer.at("marks").at("outline").size(), 100U);
+  EXPECT_THAT(answer.at("command"), HasSubstr("'"));  // the name has a blank
+  EXPECT_EQ(get("/api/measured?file=heap%20a.png"), answer);
+}
+
+TEST_F(StudioServer, MeasuresAgainByWhatIsToldAndSavesItWhenAsked) {
+  Json told = get("/api/measured?file=heap%20a.png").at("told");
+  const vision::Segment ground = heap().ground;
+  told["ground"] = {ground.from.x, ground.from.y - 4, ground.to.x, ground.to.y - 4};
+  told["keep"] = {{heap().picture.width / 2, ground.from.y - 20}};
+  const auto again =
+      client_->Post("/api/measure?file=heap%20a.png", told.dump(), "application/json");
+  ASSERT_EQ(again->status, 200) << again->body;
+  const Json answer = Json::parse(again->body);
+  EXPECT_EQ(answer.at("told").at("ground"), told.at("ground"));
+  EXPECT_THAT(answer.at("command"), HasSubstr("--ground"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "heap a.png.repose.toml"));
+
+  const auto saved = client_->Put("/api/hints?file=heap%20a.png", told.dump(), "application/json");
+  ASSERT_EQ(saved->status, 200) << saved->body;
+  const vision::PictureSettings kept = vision::with_saved_hints({}, folder_.path() / "heap a.png");
+  EXPECT_NEAR(kept.measuring.hints.ground->from.y, ground.from.y - 4, .01);
+  EXPECT_EQ(get("/api/measured?file=heap%20a.png").at("measured").at("angle_deg"),
+            answer.at("measured").at("angle_deg"));
+  EXPECT_EQ(get("/api/folder").at("files").at(0).at("has_hints"), true);
+
+  EXPECT_EQ(client_->Delete("/api/hints?file=heap%20a.png")->status, 200);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "heap a.png.repose.toml"));
+  EXPECT_EQ(get("/api/measured?file=heap%20a.png").at("told").at("ground"), nullptr);
+}
+
+TEST_F(StudioServer, WhatCannotBeMeantIsRefusedAndNothingIsSaved) {
+  for (const char* told : {"", "[", "[]", R"({"heap": "all"})", R"({"heap": [-5, 0, 9999, 9]})"}) {
+    const auto saved = client_->Put("/api/hints?file=heap%20a.png", told, "application/json");
+    EXPECT_TRUE(saved->status == 400 ||
+                Json::parse(saved->body).at("measured").at("status") == "refused")
+        << told;
+  }
+  get("/api/measured?file=nowhere.png", 400);
+  get("/api/measured", 400);
+}
+
+TEST_F(StudioServer, NoNameLeadsOutOfTheFolder) {
+  const testing::TemporaryFolder other;
+  vision::write_picture(other.path() / "secret.png", heap().picture);
+  std::ofstream(folder_.path() / "notes.txt") << "private";
+  const std::string up = "../" + other.path().filename().string() + "/secret.png";
+  for (const std::string& name :
+       {up, (other.path() / "secret.png").string(), std::string("./heap a.png"),
+        std::string("notes.txt"), std::string("/etc/passwd"), std::string("..")}) {
+    const auto encoded = httplib::detail::encode_query_param(name);
+    EXPECT_EQ(client_->Get("/api/measured?file=" + encoded)->status, 400) << name;
+    EXPECT_EQ(client_->Get("/api/picture?file=" + encoded)->status, 400) << name;
+    EXPECT_EQ(client_->Delete("/api/hints?file=" + encoded)->status, 400) << name;
+    EXPECT_EQ(client_->Post("/api/file?file=" + encoded, "x", "image/png")->status, 400) << name;
+  }
+  EXPECT_EQ(client_->Get("/../../etc/passwd")->status, 404);
+}
+
+TEST_F(StudioServer, AFileThatIsAddedReplacesNone) {
+  const std::string bytes = testing::text_of(folder_.path() / "heap a.png");
+  const auto add = [&](const std::string& name, const std::string& content) {
+    const auto answer = client_->Post("/api/file?file=" + httplib::detail::encode_query_param(name),
+                                      content, "image/png");
+    return Json::parse(answer->body);
+  };
+  EXPECT_EQ(add("heap a.png", bytes).at("file"), "heap a-2.png");
+  EXPECT_EQ(add("heap a.png", bytes).at("file"), "heap a-3.png");
+  EXPECT_EQ(get("/api/set").at("copies"), 2);
+  EXPECT_EQ(add("broken.png", "no picture").at("file"), "broken.png");
+  const Json broken = get("/api/measured?file=broken.png").at("measured");
+  EXPECT_EQ(broken.at("status"), "refused");
+  EXPECT_THAT(broken.at("reason"), HasSubstr("broken.png"));
+  EXPECT_THAT(add("heap.exe", "x").at("error"), HasSubstr("JPEG"));
+  EXPECT_THAT(add(".hidden.png", "x").at("error"), HasSubstr(".hidden.png"));
+}
+
+TEST_F(StudioServer, PicturesAreJpegsNoLargerThanAskedFor) {
+  const auto small = client_->Get("/api/picture?file=heap%20a.png&side=100");
+  ASSERT_EQ(small->status, 200);
+  EXPECT_EQ(small->get_header_value("Content-Type"), "image/jpeg");
+  const auto file = folder_.write("small.jpg", small->body);
+  EXPECT_EQ(vision::read_picture(file).width, 100);
+  const auto turned = client_->Get("/api/picture?file=heap%20a.png&side=100&turns=1");
+  EXPECT_EQ(vision::read_picture(folder_.write("turned.jpg", turned->body)).height, 100);
+  for (const char* wrong : {"side=0", "side=1e9", "side=99999999999", "side=x", "turns=4"}) {
+    EXPECT_EQ(client_->Get(std::string("/api/picture?file=heap%20a.png&") + wrong)->status, 400)
+        << wrong;
+  }
+  EXPECT_GT(client_->Get("/api/overlay?file=heap%20a.png")->body.size(), 10000U);
+}
+
+TEST_F(StudioServer, TheSetIsWhatTheCommandLineSays) {
+  EXPECT_EQ(get("/api/set").at("pictures"), 1);
+  const auto table = client_->Get("/files/angles.csv");
+  EXPECT_THAT(table->body, StartsWith("file,status,angle_deg"));
+  EXPECT_THAT(table->body, HasSubstr("heap a.png"));
+  EXPECT_THAT(client_->Get("/files/photos.html")->body, HasSubstr("heap a.png"));
+}
+
+TEST_F(StudioServer, StrangersAreNotAnswered) {
+  httplib::Client stranger("127.0.0.1", port_);
+  for (const char* path : {"/", "/studio.js", "/api/folder", "/api/picture?file=heap%20a.png"}) {
+    EXPECT_EQ(stranger.Get(path)->status, 403) << path;
+    EXPECT_EQ(stranger.Get(path, {{"Host", "evil.example"}})->status, 403) << path;
+  }
+  EXPECT_EQ(client_->Get("/api/folder", {{"Origin", "http://evil.example"}})->status, 403);
+  EXPECT_EQ(
+      client_->Get("/api/folder", {{"Host", "evil.example:" + std::to_string(port_)}})->status,
+      403);
+  const auto page = stranger.Get("/?token=" + token_);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_THAT(page->get_header_value("Set-Cookie"), HasSubstr("SameSite=Strict"));
+  EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'none'"));
+  EXPECT_THAT(page->get_header_value("Access-Control-Allow-Origin"), ::testing::IsEmpty());
+}
+
+TEST_F(StudioServer, TooLargeAFileIsRefused) {
+  const std::string large(std::size_t{130} << 20, 'x');
+  const auto answer = client_->Post("/api/file?file=large.png", large, "image/png");
+  // It may hang up before all was sent.
+  if (answer) EXPECT_EQ(answer->status, 413);
+  EXPECT_THAT(folder_.names(), Not(Contains("large.png")));
+}
+
+TEST(Studio, SaysWhatIsWrongBeforeItStarts) {
+  EXPECT_THROW(Server({.folder = "/nowhere/at all"}), base::InputError);
+  const testing::TemporaryFolder folder;
+  Server first({.folder = folder.path()});
+  const int port = std::stoi(first.address().substr(std::string("http://127.0.0.1:").size()));
+  EXPECT_THROW(Server({.folder = folder.path(), .port = port}), base::InputError);
+}
+
+}  // namespace
+}  // namespace repose::studio
