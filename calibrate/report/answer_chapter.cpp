@@ -293,7 +293,8 @@ Chapter knowledge_chapter(const JointResult& joint) {
     chapter.blocks.push_back(Heading{"Profile likelihoods"});
     chapter.blocks.push_back(Paragraph{fmt::format(
         "Each coefficient is fixed at one value after another while all others are refitted. The "
-        "values at which the misfit χ² rises by less than {:.2f} form the 95 % interval.",
+        "values at which the misfit χ² rises by less than {:.2f} form the 95 % interval. Where few "
+        "readings tell the bench's scatter another rise ends it, and χ² is shown in units of that.",
         kChi2Limit)});
     chapter.blocks.push_back(std::move(profiles));
   }

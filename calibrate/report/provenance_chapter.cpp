@@ -345,11 +345,15 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       " Intervals are 95 % profile-likelihood intervals (Venzon and Moolgavkar 1988), the values "
       "xⱼ "
       "for which");
-  methods.add_equation(
-      "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
-      "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84");
+  methods.add_equation("min χ²(x | xⱼ) ≤ min χ²(x) + t²(0.975; νⱼ) wⱼ/Cⱼ",
+                       "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + "
+                       "t^2_{.975,\\,\\nu_j}\\,w_j/C_j");
   methods.add(
-      "A coefficient is called determined when both ends of its interval lie inside the bounds and "
+      "where, with the fit linearised at its minimum, Cⱼ is the variance of xⱼ by these uᵢ, wⱼ the "
+      "one by sᵢ/√nᵢ with what estimated weights add to it (Kenward and Roger 1997), and νⱼ its "
+      "effective degrees of freedom (Welch and Satterthwaite: GUM G.4.1). Where scatters are known "
+      "the limit is 3.84. A coefficient is called determined when both ends of its interval lie "
+      "inside the bounds and "
       "its half-width is at most 25 % of the value or what the study calls useful, bounded when "
       "the "
       "interval is wider, one-sided when one end lies inside, undetermined otherwise.");
