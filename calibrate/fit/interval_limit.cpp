@@ -18,16 +18,23 @@ double Misfit::interval_limit(const Point& best, std::size_t coordinate) const {
   const Linearised fit = linearised(best, is_free);
   const NormalEquations equations = normal_equations(best, is_free, fit);
   const Eigen::Index j = place_of(coordinate);
+  // All others are somewhere within their bounds: a uniform distribution has 1/12 of the square of
+  // its width for variance (GUM 4.3.7).
+  Eigen::MatrixXd known =
+      equations.held + 12 * Eigen::MatrixXd::Identity(equations.held.rows(), equations.held.cols());
+  known(j, j) = equations.held(j, j);
+  const Eigen::LLT<Eigen::MatrixXd> inverse(equations.jacobian.transpose() * equations.jacobian +
+                                            known);
+  const Eigen::MatrixXd moved = inverse.solve(equations.jacobian.transpose());
   // How the coordinate follows each reading, and what is left of a reading when all were followed.
-  const Eigen::VectorXd follows = (equations.moved * equations.whitening).row(j);
+  const Eigen::VectorXd follows = (moved * equations.whitening).row(j);
   const Eigen::MatrixXd left =
       equations.whitening.transpose() *
-      (equations.whitening - equations.jacobian * equations.moved * equations.whitening);
-  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(place_of(is_free.size()), j);
-  const Eigen::VectorXd column = equations.inverse.solve(unit);
+      (equations.whitening - equations.jacobian * moved * equations.whitening);
+  const Eigen::VectorXd unit = Eigen::VectorXd::Unit(known.rows(), j);
+  const Eigen::VectorXd column = inverse.solve(unit);
   const double widened = column(j);
-  const double variance =
-      follows.dot(fit.not_widened * follows) + column.dot(equations.held * column);
+  const double variance = follows.dot(fit.not_widened * follows) + column.dot(known * column);
   double spread = 0;  // of the variance's estimate: half its variance
   double by_weights = 0;
   double fewest = base::kManyDf;

@@ -119,6 +119,14 @@ TEST(IntervalLimit, IsThatOfTheNormalDistributionWhereScattersAreKnown) {
   EXPECT_EQ(misfit.interval_limit({.5, .5}, 0), kChi2Limit);
 }
 
+// One that no reading tells is somewhere within its bounds, and so makes the others hardly unsure.
+TEST(IntervalLimit, OfAParameterIsTheSameBesideOneThatNoReadingTells) {
+  const JointFit fit = fit_of({{{20, 20, .01}, 30.005, .5, 5}, {{20, -20, .01}, 10.005, .5, 5}});
+  const double half = 2.306004 * (.5 / std::sqrt(5)) / (20 * std::sqrt(2));
+  EXPECT_NEAR(half_width(fit.parameters[0]), half, .02 * half);
+  EXPECT_EQ(fit.parameters[2].verdict, Verdict::undetermined);
+}
+
 // What readings have in common is known: GUM G.2b with an infinite number for it.
 TEST(IntervalLimit, WhatReadingsHaveInCommonMakesDegreesMore) {
   const std::vector<LinearReading> readings = {{{20}, 20, .5, 4}};
