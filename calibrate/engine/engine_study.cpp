@@ -1,6 +1,7 @@
 #include "calibrate/engine/engine_study.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -287,8 +288,7 @@ FreshRuns fresh_runs(const EngineStudy& of, const Engine& engine, const MakeSett
   EngineRuns checks(of.study(), of.folder(), RunsFor::check);
   const std::size_t there = checks.rows_at(values).size();
   if (there < count && of.most() > 0) {
-    checks.plan({}, std::vector<NextRun>(
-                        count - there, {values, "checks the fitted parameters, no part of a fit"}));
+    checks.plan({}, std::vector<NextRun>(count - there, {values, "checks the fitted parameters"}));
   }
   std::vector<std::size_t> to_make;
   for (const std::size_t row : checks.rows_at(values)) {

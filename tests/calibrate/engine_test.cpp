@@ -155,9 +155,12 @@ TEST_F(EngineStudyTest, ChecksThatFailSayNothing) {
   EXPECT_THAT(joint.agreement.text, HasSubstr("the fit rests on surfaces"));
 }
 
-TEST_F(EngineStudyTest, WithoutChanceOneRunChecks) {
+TEST_F(EngineStudyTest, WhereRepeatsShowNoChanceOneRunChecks) {
+  write("mine.csv", "friction,aor\n0.1,12\n0.1,12\n0.2,16\n0.4,24\n0.4,24\n0.6,32\n");
+  EngineRequest with = request();
+  with.runs = {place_ / "mine.csv"};
   script(std::string("angle=$(awk -v f=$friction 'BEGIN { print 8 + 40 * f }')\n") + kWrite);
-  const StudyResult result = calibrated(request());
+  const StudyResult result = calibrated(with);
   EXPECT_EQ(facts(result).check_runs, 1);
   EXPECT_EQ(std::get<JointResult>(result.found).verdict, AgreementVerdict::agrees);
 }
