@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
+#include "calibrate/fit/verification.h"
 #include "calibrate/runs/table_columns.h"
 
 namespace repose::calibrate {
@@ -21,7 +22,6 @@ constexpr const char* kRun = "run";
 constexpr const char* kSeed = "seed";
 constexpr const char* kStatus = "status";
 constexpr const char* kReason = "reason";
-constexpr const char* kRunPrefix = "run_";
 constexpr const char* kDone = "ok";
 constexpr const char* kFailed = "failed";
 constexpr const char* kRowFile = "row.csv";
@@ -34,23 +34,29 @@ std::vector<std::string> usual_columns(const TableStudy& study) {
   return columns;
 }
 
+/// How runs of a kind are called.
+std::string_view prefix_of(RunsFor purpose) { return purpose == RunsFor::fit ? "run_" : "check_"; }
+
+const char* file_of(RunsFor purpose) { return purpose == RunsFor::fit ? "runs.csv" : "checks.csv"; }
+
 /// Of "run_012"; 0: it is no such name.
-int number_in(const std::string& name) {
-  if (!name.starts_with(kRunPrefix)) return 0;
+int number_in(const std::string& name, RunsFor purpose) {
+  const std::string_view prefix = prefix_of(purpose);
+  if (!name.starts_with(prefix)) return 0;
   int number = 0;
   const char* end = name.data() + name.size();
-  const auto [stopped_at, error] =
-      std::from_chars(name.data() + std::string_view(kRunPrefix).size(), end, number);
+  const auto [stopped_at, error] = std::from_chars(name.data() + prefix.size(), end, number);
   return error == std::errc{} && stopped_at == end ? number : 0;
 }
 
 /// Runs are numbered by the table: without it new ones would stand where these are.
-void refuse_runs_without_table(const fs::path& folder, const fs::path& file) {
+void refuse_runs_without_table(const fs::path& folder, const fs::path& file, RunsFor purpose) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const fs::path& run = entry->path();
-    if (number_in(run.filename().string()) == 0 || !fs::exists(run / kReadingFile)) continue;
+    const int number = number_in(run.filename().string(), purpose);
+    if (number == 0 || !fs::exists(run / kReadingFile)) continue;
     base::refuse(
         file, "is not there, and folders of runs that were made are",
         fmt::format("put it back, or make it from the {} of each folder, or choose another "
@@ -61,11 +67,14 @@ void refuse_runs_without_table(const fs::path& folder, const fs::path& file) {
 
 }  // namespace
 
-EngineRuns::EngineRuns(const TableStudy& study, const fs::path& folder)
-    : study_(study), folder_(folder / "runs"), file_(folder_ / "runs.csv") {
+EngineRuns::EngineRuns(const TableStudy& study, const fs::path& folder, RunsFor purpose)
+    : study_(study),
+      purpose_(purpose),
+      folder_(folder / "runs"),
+      file_(folder_ / file_of(purpose)) {
   const auto text = base::read_file_if_there(file_);
   table_.name = file_.string();
-  if (!text) refuse_runs_without_table(folder_, file_);
+  if (!text) refuse_runs_without_table(folder_, file_, purpose);
   if (text) table_ = parse_table(file_.string(), *text, NoRows::allowed);
   const std::vector<std::string> usual = usual_columns(study);
   if (table_.columns.empty()) table_.columns = usual;
@@ -135,16 +144,18 @@ void EngineRuns::add_column(const std::string& name) {
 void EngineRuns::name_rows() {
   int last = 0;
   for (std::size_t row = 0; row < table_.rows.size(); ++row) {
-    last = std::max(last, number_in(cell(row, kRun)));
+    last = std::max(last, number_in(cell(row, kRun), purpose_));
   }
   for (std::size_t row = 0; row < table_.rows.size(); ++row) {
     std::string& name = cell(row, kRun);
-    if (number_in(name) > 0) continue;
-    name = fmt::format("{}{:03}", kRunPrefix, ++last);
+    if (number_in(name, purpose_) > 0) continue;
+    name = fmt::format("{}{:03}", prefix_of(purpose_), ++last);
   }
+  const std::uint64_t before_first = purpose_ == RunsFor::fit ? 0 : kFirstCheckSeed;
   for (std::size_t row = 0; row < table_.rows.size(); ++row) {
     std::string& seed = cell(row, kSeed);
-    if (is_nothing(seed)) seed = fmt::format("{}", number_in(cell(row, kRun)));
+    const auto number = static_cast<std::uint64_t>(number_in(cell(row, kRun), purpose_));
+    if (is_nothing(seed)) seed = fmt::format("{}", before_first + number);
   }
 }
 
@@ -173,6 +184,14 @@ std::vector<std::size_t> EngineRuns::to_make() const {
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < table_.rows.size(); ++row) {
     if (!is_made(row) && is_within_bounds(row)) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<std::size_t> EngineRuns::rows_at(const std::vector<double>& values) const {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < table_.rows.size(); ++row) {
+    if (run(row).values == values) rows.push_back(row);
   }
   return rows;
 }

@@ -1,6 +1,7 @@
 #include "calibrate/engine/engine_study.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -31,6 +32,10 @@ constexpr std::size_t kRound = 8;
 constexpr const char* kRunsInFolder = "runs/runs.csv";
 /// If none of so many first ones gives a reading, none will.
 constexpr std::size_t kFirst = 3;
+/// Of a program with chance, at the fitted parameters: as many as repose makes of its own dear
+/// ones.
+constexpr int kUsualCheckRuns = 6;
+constexpr const char* kByFailures = "failures";
 
 /// Enough places for a fit, though one in six is a repeat and some may fail.
 std::size_t start_runs(std::size_t parameters) { return 3 * parameters + 3; }
@@ -126,7 +131,7 @@ void note_other_engines(EngineStudy& of, const Engine& engine, std::vector<std::
   std::vector<fs::path> folders;
   for (fs::directory_iterator entry(of.runs().folder(), error), end; !error && entry != end;
        entry.increment(error)) {
-    folders.push_back(entry->path());
+    if (!entry->path().filename().string().starts_with("check_")) folders.push_back(entry->path());
   }
   std::ranges::sort(folders);
   for (const fs::path& folder : folders) {
@@ -188,6 +193,7 @@ class Rounds {
     return facts;
   }
   const std::vector<std::string>& notes() const { return notes_; }
+  const MakeSettings& settings() const { return settings_; }
 
  private:
   void report() const {
@@ -230,7 +236,7 @@ class Rounds {
   }
 
   void end_with_failures(std::size_t runs) {
-    facts_.ended_by = "failures";
+    facts_.ended_by = kByFailures;
     notes_.push_back(fmt::format(
         "No more runs were made: {} failed. The folders beside {} tell why; empty the status of "
         "those that are to be made again.",
@@ -273,6 +279,35 @@ class Rounds {
 
 }  // namespace
 
+namespace {
+
+/// The fresh runs of check_runs in [engine]; those that are lacking are made, unless none may be.
+/// @throws FitInterrupted
+FreshRuns fresh_runs(const EngineStudy& of, const Engine& engine, const MakeSettings& settings,
+                     const std::vector<double>& values, std::size_t count) {
+  EngineRuns checks(of.study(), of.folder(), RunsFor::check);
+  const std::size_t there = checks.rows_at(values).size();
+  if (there < count && of.most() > 0) {
+    checks.plan({}, std::vector<NextRun>(count - there, {values, "checks the fitted parameters"}));
+  }
+  std::vector<std::size_t> to_make;
+  for (const std::size_t row : checks.rows_at(values)) {
+    if (!checks.is_made(row) && of.most() > 0) to_make.push_back(row);
+  }
+  if (!to_make.empty() && !make_runs(checks, engine, to_make, settings)) throw FitInterrupted();
+  if (!checks.exists()) return {};
+  const TableRuns table = read_table_runs(of.study(), {checks.file()}, NoRows::allowed);
+  FreshRuns fresh;
+  std::ranges::copy_if(table.runs, std::back_inserter(fresh.runs),
+                       [&](const Run& run) { return run.job.values == values; });
+  for (std::size_t k = 0; k < table.places.size(); ++k) {
+    fresh.failed += table.places[k] == values && table.ends[k] == RowEnd::failed ? 1 : 0;
+  }
+  return fresh;
+}
+
+}  // namespace
+
 int usual_max_runs(std::size_t parameters) {
   constexpr int kEach = 8, kAll = 16;
   return kAll + kEach * static_cast<int>(parameters);
@@ -303,12 +338,22 @@ std::optional<StudyResult> calibrate_with_engine(const EngineRequest& request,
     return std::nullopt;
   }
   notes.insert(notes.end(), rounds.notes().begin(), rounds.notes().end());
+  // Where a whole round failed, others would fail as well.
+  const auto check_runs =
+      rounds.facts().ended_by == kByFailures
+          ? std::size_t{0}
+          : static_cast<std::size_t>(of.study().engine->check_runs.value_or(kUsualCheckRuns));
+  const auto fresh_runs_at = [&](const std::vector<double>& values, bool has_chance) {
+    return fresh_runs(of, *engine, rounds.settings(), values,
+                      has_chance ? check_runs : std::min<std::size_t>(check_runs, 1));
+  };
   return calibrate_table({.study = request.study,
                           .settings = request.settings,
                           .runs = of.tables(),
                           .folder = of.folder(),
                           .engine = rounds.facts(),
-                          .notes = notes},
+                          .notes = notes,
+                          .fresh_runs_at = check_runs > 0 ? fresh_runs_at : FreshRunsAt()},
                          watch.note, is_interrupted);
 }
 

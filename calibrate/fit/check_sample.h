@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -8,12 +7,10 @@
 #include "calibrate/fit/agreement.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/problem.h"
+#include "calibrate/fit/verification.h"
 
 // Internal: what the runs of a check gave.
 namespace repose::calibrate {
-
-/// Seeds of checks begin here; a study never has so many jobs.
-inline constexpr std::uint64_t kFirstCheckSeed = 1'000'000'000;
 
 /// Of a test, before it is shared between its observables.
 inline constexpr double kLevel = .05;

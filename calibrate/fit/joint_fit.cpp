@@ -129,7 +129,8 @@ FittedParameter parameter_of(const Problem& problem, const Solution& solution, s
   fitted.verdict = verdict_of(parameter, profile, fitted);
   for (const Minimum& minimum : profile.minima) {
     fitted.profile.push_back(
-        {value_at(minimum.point[j]), std::max(0., minimum.chi2 - solution.best.chi2)});
+        {value_at(minimum.point[j]),
+         kChi2Limit / profile.rise * std::max(0., minimum.chi2 - solution.best.chi2)});
   }
   return fitted;
 }

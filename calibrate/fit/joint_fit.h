@@ -24,7 +24,9 @@ struct Interval {
 /// The best fit with one parameter held at `value`.
 struct ProfilePoint {
   double value = 0;
-  double chi2 = 0;  ///< above that of the best fit; 3.84 ends the interval
+  /// Above that of the best fit, in units of which 3.84 end the interval: the rise that ends it is
+  /// another where the bench's scatter is known from few readings.
+  double chi2 = 0;
 };
 
 /// How wide the 95 % interval of a parameter would be, as a part of its present width.

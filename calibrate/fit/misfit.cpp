@@ -117,6 +117,15 @@ constexpr double kUnknownWeight = .02;  // of a success assumed everywhere
 
 }  // namespace
 
+double FailureRisk::nearness(const Point& one, const Point& other) const {
+  const std::vector<std::size_t>& seen = attempts_.parameters;
+  double distance2 = 0;
+  for (const std::size_t parameter : seen) {
+    distance2 += std::pow(one[parameter] - other[parameter], 2);
+  }
+  return std::exp(-distance2 / (2 * kWidth * kWidth * static_cast<double>(seen.size())));
+}
+
 Risk FailureRisk::at(const Point& point) const {
   Risk risk;
   risk.gradient.assign(point.size(), 0);
@@ -238,12 +247,16 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     explained.push_back(
         explained_fraction(surrogates_.back(), w, observable.n * by_scatter * by_scatter) *
         std::pow(by_scatter / measured_.back(), 2));
+    const double widening = few_readings_factor(observable);
     const double sd =
-        std::hypot(with_systematic(observable, few_readings_factor(observable) * by_scatter),
-                   observable.shift_sd);
-    targets_.push_back({w, sd / warp.slope(w),
-                        std::pow(observable.systematic_sd / warp.slope(w), 2),
-                        observable.model_sd / warp.slope(w)});
+        std::hypot(with_systematic(observable, widening * by_scatter), observable.shift_sd);
+    targets_.push_back({.value = w,
+                        .sd = sd / warp.slope(w),
+                        .systematic2 = std::pow(observable.systematic_sd / warp.slope(w), 2),
+                        .model_sd = observable.model_sd / warp.slope(w),
+                        .scatter2 = std::pow(by_scatter / warp.slope(w), 2),
+                        .widening2 = widening * widening,
+                        .scatter_df = degrees_of_scatter(observable)});
   }
   errors.throw_if_any();
   correlation_.expected = reading_correlation_of(problem, surrogates_);

@@ -70,6 +70,8 @@ class FailureRisk {
 
   bool any() const { return attempts_.failures() > 0; }
   Risk at(const Point& point) const;
+  /// How much a run at one point tells of another: 1 at the same.
+  double nearness(const Point& one, const Point& other) const;
 
  private:
   Attempts attempts_;
@@ -127,6 +129,9 @@ class Misfit {
   Residuals residuals(const Point& point, bool with_jacobian) const;
   /// Of the fit that has its minimum there (freedom.cpp).
   Freedom freedom(const Point& best) const;
+  /// By how much chi2 may rise above its minimum, which is at `best`, within the 95 % interval of a
+  /// coordinate: kChi2Limit where all scatters are known (interval_limit.cpp).
+  double interval_limit(const Point& best, std::size_t coordinate) const;
 
  private:
   /// An observable in the units of its surrogate.
@@ -135,6 +140,9 @@ class Misfit {
     double sd = 0;
     double systematic2 = 0;  ///< of its square, what the readings have in common
     double model_sd = 0;     ///< Observable::model_sd
+    double scatter2 = 0;     ///< of its square, what the scatter of the readings adds, not widened
+    double widening2 = 1;    ///< square of few_readings_factor(), by which it is widened
+    double scatter_df = 0;   ///< degrees_of_scatter()
   };
   double model_variance(std::size_t observable) const;
   /// The observables of one experiment.
@@ -146,6 +154,9 @@ class Misfit {
                                        bool with_jacobian) const;
   struct Linearised;
   Linearised linearised(const Point& best, const std::vector<bool>& is_free) const;
+  struct NormalEquations;
+  NormalEquations normal_equations(const Point& best, const std::vector<bool>& is_free,
+                                   const Linearised& fit) const;
   /// Their residuals, made independent of each other.
   void add_together(const Together& together, const Point& point, bool with_jacobian,
                     Residuals& all) const;

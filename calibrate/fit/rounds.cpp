@@ -161,7 +161,8 @@ struct Unknown {
 std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
                                      const std::vector<double>& weights,
                                      const std::vector<Point>& candidates, std::size_t count,
-                                     double enough) {
+                                     double enough,
+                                     const std::function<bool(std::size_t)>& accepts) {
   const auto size = static_cast<Eigen::Index>(candidates.size());
   std::vector<Unknown> unknowns;
   for (std::size_t i = 0; i < surrogates.size(); ++i) {
@@ -171,6 +172,7 @@ std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
         {Eigen::Map<const Eigen::MatrixXd>(flat.data(), size, size), noise * noise, weights[i]});
   }
   std::vector<std::size_t> chosen;
+  Eigen::VectorXd open = Eigen::VectorXd::Ones(size);
   const auto is_known = [&](const Unknown& unknown) {
     return unknown.weight * unknown.covariance.diagonal().mean() <= enough;
   };
@@ -179,9 +181,14 @@ std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
     Eigen::VectorXd gains = Eigen::VectorXd::Zero(size);
     for (const Unknown& unknown : unknowns) gains += unknown.gains();
     Eigen::Index best = 0;
-    if (!(gains.maxCoeff(&best) > 0)) break;
+    if (!(gains.cwiseProduct(open).maxCoeff(&best) > 0)) break;
+    const auto place = static_cast<std::size_t>(best);
+    if (accepts && !accepts(place)) {
+      open(best) = 0;
+      continue;
+    }
     for (Unknown& unknown : unknowns) unknown.learn(best);
-    chosen.push_back(static_cast<std::size_t>(best));
+    chosen.push_back(place);
   }
   return chosen;
 }

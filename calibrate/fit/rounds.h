@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "calibrate/fit/joint_fit.h"
@@ -35,10 +36,13 @@ std::vector<Job> following_jobs(const Problem& problem, const std::vector<Run>& 
 /// for Gaussian processes Seo, Wallat, Graepel, Obermayer (2000). A run without chance is never
 /// repeated. Proved by BestPlaces.* in tests/calibrate.
 /// @param enough  fewer are chosen where after these no surrogate's mean variance is above
+/// @param accepts  asked of each before it is chosen; one that is not accepted is passed over from
+///   then on. None: all are
 std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
                                      const std::vector<double>& weights,
                                      const std::vector<Point>& candidates, std::size_t count,
-                                     double enough = 0);
+                                     double enough = 0,
+                                     const std::function<bool(std::size_t)>& accepts = {});
 
 /// A surrogate's mean variance at the plausible sets, in that of the measured mean, from which on
 /// runs are worth their while: it adds 3 % to sigma.

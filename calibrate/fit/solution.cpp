@@ -143,8 +143,9 @@ constexpr double kCloseEnough = .02;  // to the limit, of it
 /// Follows the minimum along one coordinate.
 class Tracer {
  public:
-  Tracer(const Misfit& misfit, std::size_t held, const std::vector<Point>& plausible)
-      : misfit_(misfit), held_(held), plausible_(plausible) {}
+  /// @param rise  of chi2 that ends the interval
+  Tracer(const Misfit& misfit, std::size_t held, double rise, const std::vector<Point>& plausible)
+      : misfit_(misfit), held_(held), rise_(rise), plausible_(plausible) {}
 
   /// The minimum where the coordinate is `x`, searched from its neighbour's and from the plausible
   /// point nearest to it.
@@ -166,19 +167,19 @@ class Tracer {
   double crossing(Minimum inside, Minimum outside, double limit,
                   std::vector<Minimum>& minima) const {
     const auto rise = [&](const Minimum& m) {
-      return std::sqrt(std::max(0., m.chi2 - base(limit)));
+      return std::sqrt(std::max(0., m.chi2 - (limit - rise_)));
     };
     double x = 0;
     for (int i = 0; i <= kRefinements; ++i) {
       // Near a minimum the root of the rise is straight.
       const double a = rise(inside);
       const double b = rise(outside);
-      const double fraction = std::clamp((std::sqrt(kChi2Limit) - a) / (b - a), .05, .95);
+      const double fraction = std::clamp((std::sqrt(rise_) - a) / (b - a), .05, .95);
       x = inside.point[held_] + fraction * (outside.point[held_] - inside.point[held_]);
       if (i == kRefinements) break;
       const Minimum middle = at(x, inside);
       minima.push_back(middle);
-      if (std::abs(middle.chi2 - limit) < kCloseEnough * kChi2Limit) break;
+      if (std::abs(middle.chi2 - limit) < kCloseEnough * rise_) break;
       (middle.chi2 <= limit ? inside : outside) = middle;
     }
     return x;
@@ -187,7 +188,7 @@ class Tracer {
   /// The end of the interval on one side: `direction` -1 or 1.
   double end(const Minimum& best, double direction, double step,
              std::vector<Minimum>& minima) const {
-    const double limit = best.chi2 + kChi2Limit;
+    const double limit = best.chi2 + rise_;
     Minimum last = best;
     while (true) {
       const double from = last.point[held_];
@@ -202,10 +203,9 @@ class Tracer {
   }
 
  private:
-  static double base(double limit) { return limit - kChi2Limit; }
-
   const Misfit& misfit_;
   std::size_t held_;
+  double rise_;
   const std::vector<Point>& plausible_;
 };
 
@@ -213,15 +213,16 @@ class Tracer {
 
 Profile profile_along(const Misfit& misfit, const Minimum& best, std::size_t held,
                       const std::vector<Point>& plausible) {
-  const Tracer tracer(misfit, held, plausible);
-  const double step = std::clamp(.7 * sd_of(plausible)[held], kSmallest, kLargest);
   Profile profile;
+  profile.rise = misfit.interval_limit(best.point, held);
+  const Tracer tracer(misfit, held, profile.rise, plausible);
+  const double step = std::clamp(.7 * sd_of(plausible)[held], kSmallest, kLargest);
   profile.minima.push_back(best);
   profile.low = tracer.end(best, -1, step, profile.minima);
   profile.high = tracer.end(best, 1, step, profile.minima);
   for (const Point& point : plausible) {
     const double x = point[held];
-    if ((x < profile.low || x > profile.high) && misfit.chi2(point) <= best.chi2 + kChi2Limit) {
+    if ((x < profile.low || x > profile.high) && misfit.chi2(point) <= best.chi2 + profile.rise) {
       profile.low = std::min(profile.low, x);
       profile.high = std::max(profile.high, x);
     }
@@ -295,10 +296,19 @@ double distance2(const Point& a, const Point& b) {
   return sum;
 }
 
+/// In no coordinate outside of its interval, which may end before.
 std::vector<Minimum> within_limit(const Solution& solution) {
   std::vector<Minimum> all;
+  const auto is_inside = [&](const Point& point) {
+    for (std::size_t j = 0; j < point.size(); ++j) {
+      const Profile& profile = solution.profiles[j];
+      if (point[j] < profile.low || point[j] > profile.high) return false;
+    }
+    return true;
+  };
   const auto add = [&](const Minimum& minimum) {
-    if (minimum.chi2 <= solution.best.chi2 + kChi2Limit) all.push_back(minimum);
+    if (minimum.chi2 > solution.best.chi2 + kChi2Limit || !is_inside(minimum.point)) return;
+    all.push_back(minimum);
   };
   for (const Profile& profile : solution.profiles) {
     for (const Minimum& minimum : profile.minima) add(minimum);

@@ -32,12 +32,13 @@ struct Profile {
   std::vector<Minimum> minima;  ///< by rising coordinate, the best fit among them
   double low = 0;               ///< the interval, in the unit box
   double high = 1;
+  double rise = kChi2Limit;  ///< of chi2, that ends it: Misfit::interval_limit()
 };
 
 /// Follows the best fit with coordinate `held` moved to both sides until chi2 has risen by
-/// kChi2Limit or a bound is met: Venzon and Moolgavkar (1988), Appl. Statist. 37, 87. `plausible`
-/// points start searches of their own and, where they are within the limit, belong to the interval
-/// even if the way to them is not. Proved by JointFit.* in tests/calibrate.
+/// Misfit::interval_limit() or a bound is met: Venzon and Moolgavkar (1988), Appl. Statist. 37, 87.
+/// `plausible` points start searches of their own and, where they are within the limit, belong to
+/// the interval even if the way to them is not. Proved by JointFit.* in tests/calibrate.
 Profile profile_along(const Misfit& misfit, const Minimum& best, std::size_t held,
                       const std::vector<Point>& plausible);
 

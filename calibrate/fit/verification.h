@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "calibrate/fit/problem.h"
 
 namespace repose::calibrate {
+
+/// Seeds of checks begin here; a study never has so many jobs.
+inline constexpr std::uint64_t kFirstCheckSeed = 1'000'000'000;
 
 /// An observable as fresh simulations give it.
 struct Agreement {

@@ -206,6 +206,10 @@ Table scatter_table(const JointResult& joint) {
 }
 
 std::string rounds_text(const JointResult& joint) {
+  if (joint.is_of_table) {
+    return "The fitted parameters were run again with fresh seeds. These runs have no part in the "
+           "fit.";
+  }
   return fmt::format(
       "The best fit was simulated again with fresh seeds, {}. All of these runs then entered the "
       "fit, whatever they showed. The last fit is reported; the check below is of its "
@@ -257,9 +261,10 @@ void add_predictions(const JointResult& joint, Chapter& chapter) {
       "from those that the fit leaves plausible; the interval holds what these differ by, and {}. "
       "Cannot tell: the coefficients are not known well enough to predict this reading "
       "within its margin.",
-      joint.verdict ? "were simulated at" : "are what a surface through the table's runs gives at",
-      joint.verdict ? static_cast<int>(kDrawnSets) : joint.held_out.front().sets,
-      joint.verdict ? "chance" : "what is not known of the surface")});
+      !joint.is_of_table ? "were simulated at"
+                         : "are what a surface through the table's runs gives at",
+      !joint.is_of_table ? static_cast<int>(kDrawnSets) : joint.held_out.front().sets,
+      !joint.is_of_table ? "chance" : "what is not known of the surface")});
 }
 
 /// How a check of an assumed input is told.

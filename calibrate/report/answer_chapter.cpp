@@ -120,7 +120,7 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
   PictureRow row = heaps_side_by_side(pictures);
   if (!row.pictures.empty()) chapter.blocks.push_back(std::move(row));
   chapter.blocks.push_back(Paragraph{
-      joint.verdict
+      !joint.is_of_table
           ? "These coefficients are valid only with their clump, contact model, damping, stiffness "
             "and time step, which are listed under “Provenance”. In another program the same "
             "number may have a different meaning."
@@ -131,10 +131,10 @@ Chapter answer_chapter(const JointResult& joint, const HeapPictures& pictures) {
     chapter.blocks.push_back(Heading{"How to determine the others"});
     for (const std::string& text : advice) chapter.blocks.push_back(Remark{text});
     if (!joint.additions.empty()) {
-      chapter.blocks.push_back(
-          CodeText{joint.verdict ? "For the study file (repose plan tells what each would give)"
-                                 : "For the study file, with a table of what the bench read",
-                   lines_of(joint.additions)});
+      chapter.blocks.push_back(CodeText{
+          !joint.is_of_table ? "For the study file (repose plan tells what each would give)"
+                             : "For the study file, with a table of what the bench read",
+          lines_of(joint.additions)});
     }
   }
   return chapter;
@@ -256,7 +256,7 @@ void add_narrowing(const JointResult& joint, Chapter& chapter) {
       Paragraph{fmt::format("Roughly foreseen from the fit. Where exact simulation would hardly "
                             "narrow an interval, {} no "
                             "use: measure more, or another experiment.",
-                            joint.verdict ? "a larger budget is" : "more runs are")});
+                            !joint.is_of_table ? "a larger budget is" : "more runs are")});
 }
 
 Table correlation_table(const JointResult& joint) {
@@ -293,7 +293,8 @@ Chapter knowledge_chapter(const JointResult& joint) {
     chapter.blocks.push_back(Heading{"Profile likelihoods"});
     chapter.blocks.push_back(Paragraph{fmt::format(
         "Each coefficient is fixed at one value after another while all others are refitted. The "
-        "values at which the misfit χ² rises by less than {:.2f} form the 95 % interval.",
+        "values at which the misfit χ² rises by less than {:.2f} form the 95 % interval. Where few "
+        "readings tell the bench's scatter another rise ends it, and χ² is shown in units of that.",
         kChi2Limit)});
     chapter.blocks.push_back(std::move(profiles));
   }

@@ -302,7 +302,7 @@ void add_angle(const std::string& bench, Methods& methods) {
 
 /// Where the simulations of the fit were made, round by round.
 std::string runs_text(const JointResult& joint) {
-  if (!joint.verdict) return "The simulations are those of the table.";
+  if (joint.is_of_table) return "The simulations are those of the table.";
   const auto all = static_cast<int>(joint.runs.size());
   const std::string made = fmt::format("{} simulations entered the fit", all);
   // Rounds count what was planned so far; the checks' runs follow.
@@ -337,7 +337,7 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
   methods.add(
       std::string("where mᵢ, sᵢ and nᵢ are mean, standard deviation and number of the bench's "
                   "readings, and t is Student's quantile") +
-      (joint.verdict
+      (!joint.is_of_table
            ? ". Readings of one experiment enter with the covariance of runs with other seeds at "
              "the same place, as far as these explain the bench's scatter (shrunk: Schäfer and "
              "Strimmer 2005)."
@@ -345,11 +345,15 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
       " Intervals are 95 % profile-likelihood intervals (Venzon and Moolgavkar 1988), the values "
       "xⱼ "
       "for which");
-  methods.add_equation(
-      "min χ²(x | xⱼ) ≤ min χ²(x) + 3.84",
-      "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + 3.84");
+  methods.add_equation("min χ²(x | xⱼ) ≤ min χ²(x) + t²(0.975; νⱼ) wⱼ/Cⱼ",
+                       "\\min_{x:\\,x_j\\ \\mathrm{fixed}} \\chi^2(x) \\le \\min_x \\chi^2(x) + "
+                       "t^2_{.975,\\,\\nu_j}\\,w_j/C_j");
   methods.add(
-      "A coefficient is called determined when both ends of its interval lie inside the bounds and "
+      "where, with the fit linearised at its minimum, Cⱼ is the variance of xⱼ by these uᵢ, wⱼ the "
+      "one by sᵢ/√nᵢ with what estimated weights add to it (Kenward and Roger 1997), and νⱼ its "
+      "effective degrees of freedom (Welch and Satterthwaite: GUM G.4.1). Where scatters are known "
+      "the limit is 3.84. A coefficient is called determined when both ends of its interval lie "
+      "inside the bounds and "
       "its half-width is at most 25 % of the value or what the study calls useful, bounded when "
       "the "
       "interval is wider, one-sided when one end lies inside, undetermined otherwise.");
@@ -358,7 +362,9 @@ void add_joint_fit(const JointResult& joint, Methods& methods) {
     return;
   }
   methods.add(
-      "The best fit was simulated again with fresh seeds, and all of these runs entered the fit. "
+      fmt::format("The best fit was simulated again with fresh seeds{}. ",
+                  joint.is_of_table ? ", in runs that had no part in it"
+                                    : ", and all of these runs entered the fit") +
       "Simulated and measured means were compared by "
       "Welch's t (several of one experiment by Hotelling's T²), over all experiments by the sum of "
       "the chi-squares with the same probabilities (Lancaster 1961), whose distribution takes "

@@ -102,6 +102,8 @@ struct EngineFacts {
   int runs = 0;
   int failed = 0;        ///< of these
   std::string ended_by;  ///< why it made no more: "settled", "max_runs" or "failures"
+  int check_runs = 0;    ///< beside these: at the fitted parameters, to check the fit
+  int check_failed = 0;  ///< of these
 };
 
 /// Runs that somebody made with another program, and gave as a table.
@@ -130,8 +132,8 @@ struct ResultParameter : FittedParameter {
 };
 
 struct ResultObservable : FittedObservable {
-  /// In simulations with fresh seeds; its name and measured are these. None were made where the
-  /// runs are those of a table.
+  /// In simulations with fresh seeds; its name and measured are these. None were made where nobody
+  /// checked the runs of a table.
   std::optional<Agreement> verification;
   std::optional<SurrogateCheck> surrogate;  ///< what had been expected of them; its name likewise
   NamedValues systematic = {};  ///< what systematic_uncertainty is made of, in quadrature
@@ -177,6 +179,7 @@ struct JointResult {
   /// Of the last check with fresh seeds; which parameters it was of is in `agreement`. None: there
   /// was none, and nothing is known but what surfaces through the runs say.
   std::optional<AgreementVerdict> verdict;
+  bool is_of_table = false;  ///< another program made the runs: Provenance::table
   OverallAgreement agreement;
   std::vector<Prediction> held_out;  ///< readings that were predicted, not fitted; or none
   std::vector<SensitivityCheck> stiffness_checks;  ///< of softened experiments; or none

@@ -59,6 +59,7 @@ StudyResult result_in(const Json& json) {
   if (method == kJoint) {
     auto& joint = result.found.emplace<JointResult>();
     joint_fields(reader, joint, result.provenance);
+    joint.is_of_table = result.provenance.table.has_value();
     check_sizes(joint);
   } else if (method == kPublished) {
     auto& published = result.found.emplace<PublishedResult>();

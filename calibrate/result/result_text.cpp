@@ -370,7 +370,9 @@ std::string predictions_text(const JointResult& joint) {
 std::string agreement_sentence(const JointResult& joint) {
   if (!joint.verdict) return fmt::format("Not checked in simulations: {}.", joint.agreement.text);
   const bool is_doubtful = joint.verdict == AgreementVerdict::disagrees;
-  return fmt::format("In simulations with fresh seeds, {}.{}", joint.agreement.text,
+  return fmt::format("In {} with fresh seeds, {}.{}",
+                     joint.is_of_table ? "runs at these values" : "simulations",
+                     joint.agreement.text,
                      is_doubtful ? " Do not use these coefficients until you know why." : "");
 }
 

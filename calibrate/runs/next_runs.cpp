@@ -31,7 +31,8 @@ double nearest2(const Point& point, const std::vector<Point>& others) {
   return nearest;
 }
 
-/// Where more of the runs nearby failed than gave a reading, the next one is likely to fail, too.
+/// Where more of the runs nearby failed than gave a reading, the next one is likely to fail, too;
+/// or one of several.
 class LikelyFailures {
  public:
   LikelyFailures(const Problem& problem, const TableRuns& table)
@@ -40,7 +41,17 @@ class LikelyFailures {
   bool any() const { return risk_.any(); }
   bool at(const Point& point) const {
     constexpr double kMost = .5;
-    return risk_.any() && risk_.at(point).fraction > kMost;
+    if (!risk_.any()) return false;
+    double risk = risk_.at(point).fraction;
+    for (const auto& [other, fraction] : asked_for_) {
+      risk += fraction * risk_.nearness(point, other);
+    }
+    return risk > kMost;
+  }
+  /// A run there is asked for. All that are asked for together bear the same risk where they are
+  /// near each other: so many that half a failure is expected among them, and no more.
+  void expect(const Point& point) {
+    if (risk_.any()) asked_for_.emplace_back(point, risk_.at(point).fraction);
   }
 
  private:
@@ -56,6 +67,7 @@ class LikelyFailures {
   }
 
   FailureRisk risk_;
+  std::vector<std::pair<Point, double>> asked_for_;  ///< with the risk of each
 };
 
 /// The place of an even spread that is farthest from all that there are, of those where runs are
@@ -97,7 +109,7 @@ NextRuns spread_runs(const Problem& problem, const TableRuns& table, std::size_t
   constexpr std::size_t kRepeatEvery = 6;
   std::vector<Point> places = places_of(problem, table);
   const bool repeats = !tells_chance(table);
-  const LikelyFailures failures(problem, table);
+  LikelyFailures failures(problem, table);
   NextRuns next;
   for (std::size_t k = 0; k < count; ++k) {
     if (repeats && k % kRepeatEvery == kRepeatEvery - 1) {
@@ -109,6 +121,7 @@ NextRuns spread_runs(const Problem& problem, const TableRuns& table, std::size_t
     const bool is_start = table.places.empty();
     places.push_back(is_start ? sequence_point(places.size(), problem.parameters.size())
                               : farthest(places, problem.parameters.size(), failures));
+    failures.expect(places.back());
     next.runs.push_back({to_values(problem, places.back()),
                          is_start ? "a start that fills the bounds evenly"
                                   : "far from all other runs: fills the bounds evenly"});
@@ -185,15 +198,24 @@ NextRuns narrowing_runs(const Problem& problem, const TableRuns& table, std::siz
   }
   std::vector<Point> places = places_of(problem, table);
   std::vector<Point> candidates = candidate_places(solution.sets);
-  const LikelyFailures failures(problem, table);
+  LikelyFailures failures(problem, table);
   next.left_out = left_out_text(take_out_failures(failures, candidates));
   if (candidates.empty()) {
     next.settled = {"No further run would narrow the answer: where parameters fit, runs fail."};
     return next;
   }
   const std::size_t elsewhere = count / kSpreadEvery;
+  bool is_kept_apart = false;
+  const auto accepts = [&](std::size_t candidate) {
+    if (failures.at(candidates[candidate])) {
+      is_kept_apart = true;
+      return false;
+    }
+    failures.expect(candidates[candidate]);
+    return true;
+  };
   for (const std::size_t chosen :
-       best_places(surrogates, weights, candidates, count - elsewhere, kKnownWell)) {
+       best_places(surrogates, weights, candidates, count - elsewhere, kKnownWell, accepts)) {
     const Point& point = candidates[chosen];
     std::string reason = reason_at(problem, solution, point);
     if (nearest2(point, places) == 0) reason += "; once more, with another seed";
@@ -201,14 +223,20 @@ NextRuns narrowing_runs(const Problem& problem, const TableRuns& table, std::siz
     next.runs.push_back({to_values(problem, point), std::move(reason)});
   }
   const bool is_cut = next.runs.size() < count - elsewhere;
-  for (std::size_t k = 0; k < elsewhere && !is_cut; ++k) {
+  for (std::size_t k = 0; k < elsewhere && (!is_cut || is_kept_apart); ++k) {
     places.push_back(farthest(places, problem.parameters.size(), failures));
+    failures.expect(places.back());
     next.runs.push_back({to_values(problem, places.back()),
                          "far from all other runs: shows whether anything else fits there"});
   }
   if (is_cut) {
-    next.settled =
-        settled_text(fit_of(problem, runs, solution, {}), next.runs.size(), !next.left_out.empty());
+    next.settled = is_kept_apart
+                       ? std::vector<std::string>{fmt::format(
+                             "No more than {} {} asked for at once: others would be near these, "
+                             "where runs may fail. Once these were made, ask again.",
+                             next.runs.size(), next.runs.size() == 1 ? "run is" : "runs are")}
+                       : settled_text(fit_of(problem, runs, solution, {}), next.runs.size(),
+                                      !next.left_out.empty());
   }
   return next;
 }

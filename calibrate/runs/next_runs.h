@@ -30,7 +30,8 @@ struct NextRuns {
 /// elsewhere, until the surfaces through them would be known better than the bench's means. None is
 /// where more of the runs nearby failed than gave a reading (FailureRisk, misfit.h): around a
 /// failure among others that is half the way to them, and the more failed there, the farther from
-/// them. Proved by NextRunsTest.* in tests/calibrate.
+/// them. Of those near each other, half a failure is expected at most. Proved by NextRunsTest.* in
+/// tests/calibrate.
 /// @throws base::InputError  the problem is not sound.
 NextRuns next_runs(const TableStudy& study, const TableRuns& table, std::size_t count);
 

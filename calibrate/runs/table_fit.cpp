@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "base/atomic_file.h"
+#include "base/distributions.h"
 #include "base/fingerprint.h"
 #include "base/folder_lock.h"
 #include "base/input_error.h"
@@ -23,8 +24,10 @@
 #include "calibrate/fit/prediction.h"
 #include "calibrate/fit/solution.h"
 #include "calibrate/fit/surrogate.h"
+#include "calibrate/fit/verification.h"
 #include "calibrate/fit/warnings.h"
 #include "calibrate/result/result_of.h"
+#include "calibrate/result/result_text.h"
 #include "calibrate/run/run_study.h"
 #include "calibrate/runs/odd_readings.h"
 #include "calibrate/study/study_record.h"
@@ -137,10 +140,8 @@ std::string unchecked_text(const JointFit& fit, const std::vector<OddReading>& o
       "the fit rests on surfaces through the table's runs, which give {} (standard uncertainties) "
       "at the fitted parameters. To check them, {}",
       surfaces_text(fit),
-      has_engine
-          ? "add a row with their values and nothing else to runs/runs.csv, and give the same "
-            "command again with a higher --max-runs"
-          : "run them with your program, add the row to the table, and calibrate again");
+      has_engine ? "allow check_runs in [engine], or --max-runs, and give the same command again"
+                 : "run them with your program, add the row to the table, and calibrate again");
 }
 
 void note_odd(const std::vector<OddReading>& odd, std::vector<std::string>& notes) {
@@ -150,6 +151,57 @@ void note_odd(const std::vector<OddReading>& odd, std::vector<std::string>& note
         "is a slip, correct it; if the run went wrong, write failed in place of the reading.",
         one.text(), one.name));
   }
+}
+
+/// What fresh runs at the fitted parameters say, where each reading has enough of them.
+void add_check(const Problem& problem, const JointFit& fit, const FreshRunsAt& fresh_runs_at,
+               EngineFacts& engine, JointResult& joint) {
+  const auto has_chance = [](const FittedObservable& one) { return one.simulated_sd > 0; };
+  const bool has_any = std::ranges::any_of(fit.observables, has_chance);
+  std::vector<double> values;
+  for (const FittedParameter& parameter : fit.parameters) values.push_back(parameter.value);
+  const FreshRuns fresh = fresh_runs_at(values, has_any);
+  Problem checked = problem;
+  bool is_enough = true;
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    const std::string& name = problem.observables[i].experiment;
+    const auto readings =
+        std::ranges::count(fresh.runs, name, [](const Run& run) { return run.job.experiment; });
+    is_enough = is_enough && readings >= (has_any ? 2 : 1);
+    for (Experiment& experiment : checked.experiments) {
+      if (experiment.name == name) experiment.is_stochastic = has_any;
+    }
+  }
+  std::set<std::uint64_t> seeds;
+  for (const Run& run : fresh.runs) seeds.insert(run.job.seed);
+  engine.check_runs = static_cast<int>(seeds.size()) + fresh.failed;
+  engine.check_failed = fresh.failed;
+  if (fresh.failed > 0) {
+    joint.warnings.push_back(fmt::format(
+        "{} of {} runs at the fitted parameters failed, and say nothing of them. Those whose "
+        "status is emptied in runs/checks.csv are made again.",
+        fresh.failed, engine.check_runs));
+  }
+  if (!is_enough) return;
+  const Verification check = verify(checked, values, fresh.runs, &fit, &fit.freedom);
+  const std::vector<SurrogateCheck> surfaces = check_surrogates(checked, fit, fresh.runs);
+  for (std::size_t i = 0; i < joint.observables.size(); ++i) {
+    joint.observables[i].verification = check.observables[i];
+    joint.observables[i].surrogate = surfaces[i];
+    if (!surfaces[i].misses) continue;
+    joint.warnings.push_back(fmt::format(
+        "{}: the surface missed its own check: at the fitted parameters it expected {:.4g} ± "
+        "{:.2g} "
+        "(95 %), and fresh runs gave {:.4g}. More runs near there would mend it: a higher "
+        "--max-runs, or these with --runs, whose table is runs/checks.csv.",
+        surfaces[i].observable, surfaces[i].predicted, base::kNormal95 * surfaces[i].uncertainty,
+        surfaces[i].simulated));
+  }
+  joint.verdict = check.verdict;
+  joint.agreement = {.text = agreement_text(check, fit.freedom.degrees),
+                     .chance = check.chance,
+                     .rounds = 1,
+                     .values = values};
 }
 
 /// A parameter that is the same in all rows.
@@ -289,7 +341,8 @@ base::FolderLock locked(const fs::path& folder) {
 }  // namespace
 
 StudyResult fit_table(const TableStudy& study, const TableRuns& table,
-                      const std::optional<EngineFacts>& engine) {
+                      const std::optional<EngineFacts>& made_by, const FreshRunsAt& fresh_runs_at) {
+  std::optional<EngineFacts> engine = made_by;
   const Problem problem = sound_problem_of(study, table, engine);
   const std::vector<Run> runs = in_order(problem, table.runs);
   const Solution solution = solve(problem, runs);
@@ -298,8 +351,10 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table,
   for (FittedParameter& parameter : fit.parameters) {
     if (parameter.narrowing) parameter.narrowing->hour.reset();
   }
-  if (misses_a_reading(fit)) withdraw_intervals(problem, fit);
+  const bool gives_readings = !misses_a_reading(fit);
+  if (!gives_readings) withdraw_intervals(problem, fit);
   JointResult joint = fitted_result(problem, fit, runs);
+  joint.is_of_table = true;
   const std::vector<OddReading> odd = odd_readings(problem, table);
   joint.agreement.text = unchecked_text(fit, odd, engine.has_value());
   for (const Observable& observable : problem.held_out) {
@@ -311,6 +366,9 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table,
   note_constant(study, table, joint.warnings);
   note_extrapolation(study, table, joint.warnings);
   joint.warnings.insert(joint.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  if (engine && fresh_runs_at && gives_readings) {
+    add_check(problem, fit, fresh_runs_at, *engine, joint);
+  }
   return {.provenance = {.study = identity_of(study, table),
                          .model = {},
                          .table = TableFacts{.files = table.files,
@@ -343,7 +401,7 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
   std::optional<StudyResult> result;
   try {
     const FitWatch watch(is_interrupted);
-    result = fit_table(*study, *table, request.engine);
+    result = fit_table(*study, *table, request.engine, request.fresh_runs_at);
   } catch (const FitInterrupted&) {
     return std::nullopt;
   }

@@ -14,7 +14,7 @@
 #include "calibrate/runs/table_study.h"
 
 /// The joint fit of a study to a table of runs: no simulation is made, so nothing is checked in
-/// any.
+/// any, unless an engine makes runs when asked.
 namespace repose::calibrate {
 
 /// Each reading is an experiment of its own, which depends on all parameters.
@@ -26,11 +26,24 @@ std::size_t fewest_places(const Problem& problem);
 /// Of those that have fewer: a fault each.
 std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns& table);
 
+/// Runs at the fitted parameters, which the fit has not seen.
+struct FreshRuns {
+  std::vector<Run> runs;  ///< with a reading; their seeds begin at kFirstCheckSeed
+  int failed = 0;         ///< others
+};
+
+/// Makes such runs, or finds those made before.
+/// @param has_chance  other seeds give other readings; if not, one run says all
+using FreshRunsAt = std::function<FreshRuns(const std::vector<double>& values, bool has_chance)>;
+
 /// Fits, and predicts what is held out from surfaces through the table's runs.
 /// @param engine  that made runs of the table; none: somebody did by hand
+/// @param fresh_runs_at  asked for runs that check the fit (verification.h), unless no parameters
+///   give the readings; none: nobody makes any
 /// @throws base::InputError  too few rows have a reading.
 StudyResult fit_table(const TableStudy& study, const TableRuns& table,
-                      const std::optional<EngineFacts>& engine = {});
+                      const std::optional<EngineFacts>& engine = {},
+                      const FreshRunsAt& fresh_runs_at = {});
 
 /// What is calibrated: the options of `repose calibrate --runs`.
 struct TableRequest {
@@ -41,6 +54,7 @@ struct TableRequest {
   /// That the runs were made by, whose caller has locked the folder; none: by hand.
   std::optional<EngineFacts> engine = {};
   std::vector<std::string> notes = {};  ///< of how they were made, for the result's warnings
+  FreshRunsAt fresh_runs_at = {};       ///< as of fit_table()
 };
 
 /// Reads study and tables, fits, and leaves a copy of the study and result.json in the folder: what

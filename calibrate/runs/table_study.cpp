@@ -296,6 +296,8 @@ class Reader {
     found.timeout_s = engine.number("timeout_s", dem::above(0, kLongest_s), "timeout_s = 3600");
     const auto max_runs = engine.integer("max_runs", 1, kMostRuns, "max_runs = 40");
     if (max_runs) found.max_runs = static_cast<int>(*max_runs);
+    const auto check_runs = engine.integer("check_runs", 0, kMostRuns, "check_runs = 6");
+    if (check_runs) found.check_runs = static_cast<int>(*check_runs);
     if (const ConfigValue* settings = engine.value("settings")) {
       found.settings = *settings;
       if (settings->kind != ConfigValue::Kind::table) {

@@ -28,7 +28,8 @@ struct EngineSettings {
   std::string command;
   std::optional<double> timeout_s = {};  ///< of a run
   std::optional<int> max_runs = {};
-  dem::ConfigValue settings = {};  ///< a table for the program, of which nothing is known here
+  std::optional<int> check_runs = {};  ///< at the fitted parameters, once a fit is made; 0: none
+  dem::ConfigValue settings = {};      ///< a table for the program, of which nothing is known here
 };
 
 /// [parameter], [measured] and [engine] of a study.

@@ -142,9 +142,14 @@ void add_agreement(const calibrate::JointResult& joint, Page& page) {
     return;
   }
   page.add_gap();
-  page.add(fmt::format(
-      "Simulated with fresh seeds in {}:",
-      joint.agreement.rounds == 1 ? "1 round" : fmt::format("{} rounds", joint.agreement.rounds)));
+  page.add(
+      joint.is_of_table
+          ? std::string("Run again at the fitted values, with fresh seeds that the fit has not "
+                        "seen:")
+          : fmt::format("Simulated with fresh seeds in {}:",
+                        joint.agreement.rounds == 1
+                            ? "1 round"
+                            : fmt::format("{} rounds", joint.agreement.rounds)));
   page.add(observables_table(joint));
   if (const std::string freedom = freedom_text(joint); !freedom.empty()) {
     page.add(fmt::format("({})", freedom));
@@ -185,7 +190,7 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
     page.add(prediction_text(prediction) + '.');
   }
   page.add(
-      joint.verdict
+      !joint.is_of_table
           ? fmt::format("(not fitted: predicted by simulations at {} sets of coefficients that "
                         "the fit leaves plausible)",
                         calibrate::kDrawnSets)
@@ -344,7 +349,7 @@ void add_sets(const calibrate::JointResult& joint, Page& page) {
   page.add_gap();
   page.add(fmt::format("Equally good sets, the best one first. {}", calibrate::kUseOneRow));
   page.add(table);
-  if (!joint.verdict) return;
+  if (joint.is_of_table) return;
   page.add(
       "(e restitution, μs sliding friction, μr rolling friction; of a grain with the wall, or with "
       "another grain; repose export writes set 1, or another with --set-number)");
@@ -377,8 +382,8 @@ void add_bounds(const calibrate::JointResult& joint, Page& page) {
 void add_additions(const calibrate::JointResult& joint, Page& page) {
   if (joint.additions.empty()) return;
   page.add_gap();
-  page.add(joint.verdict ? "For the study file (repose plan tells what each would give):"
-                         : "For the study file, with a table of what the bench read:");
+  page.add(!joint.is_of_table ? "For the study file (repose plan tells what each would give):"
+                              : "For the study file, with a table of what the bench read:");
   for (const calibrate::StudyAddition& addition : joint.additions) {
     page.add_gap();
     page.add_lines(addition.lines);

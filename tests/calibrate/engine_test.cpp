@@ -107,6 +107,91 @@ TEST_F(EngineStudyTest, MakesRunsUntilNothingWouldNarrow) {
   EXPECT_FALSE(fs::exists(place_ / "reading.json"));
 }
 
+/// What is measured where the angle is off by `shift` in the runs that check the fit.
+std::string off_in_checks(const char* shift) {
+  return fmt::format(
+      "{}[ $seed -gt 1000000000 ] && angle=$(awk -v a=$angle 'BEGIN {{ print a + {} }}')\n{}",
+      kAngle, shift, kWrite);
+}
+
+TEST_F(EngineStudyTest, ChecksTheFitInRunsThatHaveNoPartInIt) {
+  const StudyResult result = calibrated(request());
+  const auto& joint = std::get<JointResult>(result.found);
+  const Agreement& aor = joint.observables.front().verification.value();
+  EXPECT_EQ(aor.runs, 6);
+  EXPECT_EQ(aor.measured, 22);
+  EXPECT_NEAR(aor.simulated, 8 + 40 * joint.parameters.front().value, .5);
+  EXPECT_EQ(joint.verdict, AgreementVerdict::agrees);
+  EXPECT_FALSE(joint.observables.front().surrogate->misses);
+  EXPECT_THAT(joint.agreement.values, ElementsAre(joint.parameters.front().value));
+  EXPECT_EQ(facts(result).check_runs, 6);
+  EXPECT_EQ(facts(result).check_failed, 0);
+  EXPECT_EQ(result.provenance.table->rows, facts(result).runs);
+  EXPECT_THAT(text("out/runs/checks.csv"), HasSubstr(",1000000006,ok,checks the fitted"));
+  EXPECT_THAT(text("out/runs/runs.csv"), Not(HasSubstr("check")));
+  EXPECT_EQ(result_from_json(to_json(result), "text"), result);
+  script("exit 1\n");
+  calibrated(request());
+  EXPECT_FALSE(fs::exists(place_ / "out/runs/check_007")) << "nothing was to be made";
+  EXPECT_EQ(joint.parameters.front().interval.low,
+            std::get<JointResult>(read_result(place_ / "out")->found).parameters[0].interval.low);
+}
+
+TEST_F(EngineStudyTest, ACheckThatReadsOtherwiseDisagrees) {
+  script(off_in_checks("6"));
+  const auto joint = std::get<JointResult>(calibrated(request()).found);
+  EXPECT_EQ(joint.verdict, AgreementVerdict::disagrees);
+  EXPECT_TRUE(joint.observables.front().surrogate->misses);
+  EXPECT_THAT(joint.warnings, Contains(HasSubstr("aor: the surface missed its own check")));
+}
+
+TEST_F(EngineStudyTest, ChecksThatFailSayNothing) {
+  script(fmt::format("{}[ $seed -gt 1000000001 ] && exit 3\n{}", kAngle, kWrite));
+  const StudyResult result = calibrated(request());
+  const auto& joint = std::get<JointResult>(result.found);
+  EXPECT_EQ(joint.verdict, std::nullopt);
+  EXPECT_EQ(facts(result).check_failed, 5);
+  EXPECT_THAT(joint.warnings, Contains(HasSubstr("5 of 6 runs at the fitted parameters failed")));
+  EXPECT_THAT(joint.agreement.text, HasSubstr("the fit rests on surfaces"));
+}
+
+TEST_F(EngineStudyTest, WhereRepeatsShowNoChanceOneRunChecks) {
+  write("mine.csv", "friction,aor\n0.1,12\n0.1,12\n0.2,16\n0.4,24\n0.4,24\n0.6,32\n");
+  EngineRequest with = request();
+  with.runs = {place_ / "mine.csv"};
+  script(std::string("angle=$(awk -v f=$friction 'BEGIN { print 8 + 40 * f }')\n") + kWrite);
+  const StudyResult result = calibrated(with);
+  EXPECT_EQ(facts(result).check_runs, 1);
+  EXPECT_EQ(std::get<JointResult>(result.found).verdict, AgreementVerdict::agrees);
+}
+
+TEST_F(EngineStudyTest, MakesNoChecksWhereNoneMayBeMade) {
+  write("study.toml", std::string(kStudy) + "check_runs = 0\n");
+  EXPECT_EQ(std::get<JointResult>(calibrated(request()).found).verdict, std::nullopt);
+  EXPECT_FALSE(fs::exists(place_ / "out/runs/checks.csv"));
+  write("study.toml", kStudy);
+  EngineRequest none = request();
+  none.max_runs = 0;
+  EXPECT_EQ(std::get<JointResult>(calibrated(none).found).verdict, std::nullopt);
+}
+
+TEST_F(EngineStudyTest, AnInterruptedCheckGoesOn) {
+  calibrated(request());
+  const std::string checks = text("out/runs/checks.csv"), result = text("out/result.json");
+  std::atomic<bool> stop = false;
+  const auto none = calibrate_with_engine(
+      request("parts"), {.report =
+                             [&](const EngineProgress&) {
+                               stop = fs::exists(place_ / "parts/runs/check_003/reading.json");
+                             },
+                         .is_interrupted = &stop});
+  EXPECT_FALSE(none.has_value());
+  EXPECT_FALSE(fs::exists(place_ / "parts/runs/check_005"));
+  calibrated(request("parts"));
+  EXPECT_EQ(text("parts/runs/checks.csv"), checks);
+  EXPECT_TRUE(text("parts/result.json") == result);
+}
+
 TEST_F(EngineStudyTest, AnyNumberOfJobsGivesTheSameBytes) {
   calibrated(request());
   const std::string runs = text("out/runs/runs.csv"), result = text("out/result.json");

@@ -53,5 +53,15 @@ TEST(BestPlaces, HeavierSurrogatesDecide) {
   EXPECT_LT(all[best_places(both, {1e-6, 1}, all, 1)[0]][0], .45);
 }
 
+TEST(BestPlaces, OneThatIsNotAcceptedMakesRoomForTheNext) {
+  const std::vector<Point> all = candidates();
+  const auto accepts = [&](std::size_t i) { return all[i][0] < .9; };
+  const std::vector<std::size_t> chosen = best_places({half_known(true)}, {1}, all, 4, 0, accepts);
+  ASSERT_EQ(chosen.size(), 4U);
+  for (const std::size_t i : chosen) EXPECT_LT(all[i][0], .9);
+  const auto none = [](std::size_t) { return false; };
+  EXPECT_THAT(best_places({half_known(true)}, {1}, all, 4, 0, none), ::testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace repose::calibrate

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/misfit.h"
@@ -17,6 +19,12 @@ TEST(FailureRisk, IsNoneWithoutFailures) {
   const FailureRisk risk({{0}, {{.1}, {.5}}, {false, false}});
   EXPECT_FALSE(risk.any());
   EXPECT_EQ(risk.at({.1}).fraction, 0);
+}
+
+TEST(FailureRisk, ARunTellsOfItsNeighboursByANormalDensity) {
+  const FailureRisk risk({{0, 2}, {}, {}});
+  EXPECT_EQ(risk.nearness({.5, .1, .5}, {.5, .9, .5}), 1) << "what it does not depend on";
+  EXPECT_NEAR(risk.nearness({.5, .1, .5}, {.6, .1, .6}), std::exp(-.5), 1e-12);
 }
 
 }  // namespace

@@ -180,6 +180,27 @@ TEST_F(NextRunsTest, OneFailureAmongOthersLeavesLittleOut) {
   EXPECT_THAT(among.left_out, IsEmpty()) << "seven runs beside it did not fail";
 }
 
+/// The reading fits between 0.55 and 0.75, where every other run failed.
+TEST_F(NextRunsTest, AreNotAllPutWhereSomeFail) {
+  const TableStudy of = study(
+      "[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 6.5, sd = 0.6, n = 4 }\n");
+  const auto risky = [](double x) { return x > .55 && x < .75; };
+  const auto asked_there = [&](bool does_fail) {
+    std::string rows = "x,y\n";
+    for (int k = 0; k <= 20; ++k) {
+      const double x = k / 20., y = 10 * x + 2 * (k % 3 - 1);
+      rows += fmt::format("{},{}\n", x,
+                          does_fail && risky(x) && k % 2 == 0 ? "failed" : fmt::format("{}", y));
+    }
+    const NextRuns next = next_runs(of, runs(of, rows), 7);
+    EXPECT_THAT(next.runs, Not(IsEmpty()));
+    return std::ranges::count_if(next.runs,
+                                 [&](const NextRun& run) { return risky(run.values[0]); });
+  };
+  EXPECT_GE(asked_there(false), 5);
+  EXPECT_LE(asked_there(true), 2);
+}
+
 TEST_F(NextRunsTest, WhereAllFitsFailNoneIsAskedFor) {
   const TableStudy of = study(
       "[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 9, sd = 0.1, n = 9 }\n");
