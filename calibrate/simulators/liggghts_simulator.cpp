@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "liggghts";
 /// Which decks made a run, and how they are read. To be raised whenever that changes what a run
-/// gives: a test (LiggghtsDecks) sees to it.
+/// gives.
 constexpr int kDecks = 1;
 
 /// LIGGGHTS takes primes above 10000 for seeds, and none that grain.lig has. Any two that follow

@@ -13,7 +13,7 @@ namespace repose::calibrate {
 
 /// A simulator that is another program, started once for each run, in a folder of the run's own:
 /// its input is prepared there, it runs, and what it leaves is read back. The folder goes away
-/// unless the program failed. Proved by ProgramSimulator.* in tests/calibrate.
+/// unless the program failed. Proved by ProgramSimulatorTest.* in tests/calibrate.
 class ProgramSimulator : public Simulator {
  public:
   bool can_resume() const final { return false; }
