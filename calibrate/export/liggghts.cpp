@@ -205,6 +205,8 @@ double largest_radius_m(const dem::ClumpShape& grain) {
 
 ExportedFile heap_file(const ExportFacts& facts) {
   constexpr double kLook_s = .02;
+  constexpr double kInsert_s = .02;
+  constexpr int kAttempts = 100;  // in that time all fall, and leave the column's top empty
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(dem::experiment_of<dem::HeapProtocol>());
@@ -217,10 +219,16 @@ ExportedFile heap_file(const ExportFacts& facts) {
   DeckFields fields = deck_fields(facts, dem::experiment_of<dem::HeapProtocol>());
   mark_shape(facts.is_sphere(), fields);
   fields.set("GRAINS", grains);
+  fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
   fields.set("TUBE_RADIUS", .5 * protocol.tube_diameter_m);
   fields.set("COLUMN", column);
+  fields.set("INSERT_STEPS", steps(kInsert_s, timestep));
+  fields.set("ATTEMPTS", kAttempts);
+  // Away from the edge, over which grains may fall.
+  fields.set("UNDER", std::max(.5 * protocol.tube_diameter_m, .5 * protocol.plate_m - 2 * reach));
+  fields.set("THICKNESS", protocol.plate_thickness_m);
   fields.set("ROOM", .5 * protocol.plate_m + 4 * reach);
   fields.set("BELOW", protocol.plate_thickness_m + 5 * reach);
   fields.set("TOP", column + 2 * protocol.tube_height_m);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <sstream>
 #include <string_view>
 
@@ -17,9 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What decks print where nothing can be read.
-constexpr std::string_view kRemarks[] = {"The grains hang in the tube.",
-                                         "The grains do not reach the rim."};
+constexpr std::string_view kRemarks[] = {kGrainsHang, kBelowRim, kGrainsLost, kAllOffPlate};
 
 /// A number at the end of a line that may have one before it.
 void read_line(const std::string& line, PrintedLines& printed) {
@@ -36,7 +33,10 @@ void read_line(const std::string& line, PrintedLines& printed) {
   } else if (line.starts_with("Loop time of ")) {
     // "Loop time of .5 on 1 procs for 1000 steps with 450 atoms, ..."
     const std::size_t place = line.find(" for ");
-    if (place != std::string::npos) printed.steps += std::atoll(line.c_str() + place + 5);
+    std::int64_t steps = 0;
+    if (place != std::string::npos && std::istringstream(line.substr(place + 5)) >> steps) {
+      printed.steps += steps;
+    }
   } else if (std::ranges::find(kRemarks, line) != std::end(kRemarks)) {
     printed.remark = line;
   }

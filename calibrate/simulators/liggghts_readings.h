@@ -13,13 +13,19 @@
 /// What decks of calibrate/export/templates/liggghts leave.
 namespace repose::calibrate {
 
+/// What decks print where nothing can be read.
+inline constexpr const char* kGrainsHang = "The grains hang in the tube.";
+inline constexpr const char* kBelowRim = "The grains do not reach the rim.";
+inline constexpr const char* kGrainsLost = "Grains were lost.";
+inline constexpr const char* kAllOffPlate = "All grains left the plate.";
+
 /// Lines of what LIGGGHTS printed.
 struct PrintedLines {
   std::map<std::string, double> readings;        ///< "reading: NAME VALUE", the last of each name
   std::vector<std::pair<double, double>> slips;  ///< "slip: DEGREES METRES", of a tilt
   std::vector<double> places;                    ///< "place K: VALUE", of bodies on grains
   std::int64_t steps = 0;                        ///< of all runs of the deck
-  std::string remark;                            ///< why there is no reading: a deck's own line
+  std::string remark;                            ///< one of those above; empty: there is a reading
 };
 
 /// @throws base::InputError  the file cannot be read.

@@ -1,7 +1,4 @@
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -10,23 +7,18 @@
 
 #include "base/atomic_file.h"
 #include "base/input_error.h"
-#include "base/units.h"
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/facts.h"
 #include "calibrate/export/target_entry.h"
-#include "calibrate/simulators/liggghts_readings.h"
+#include "calibrate/simulators/liggghts_result.h"
 #include "calibrate/simulators/program_simulator.h"
 #include "calibrate/simulators/simulators.h"
 #include "dem/contact/model_names.h"
 #include "dem/experiment/drop.h"
-#include "dem/experiment/experiment_run.h"
 #include "dem/experiment/fill.h"
 #include "dem/experiment/heap.h"
-#include "dem/experiment/model_setup.h"
-#include "dem/experiment/pendulum.h"
 #include "dem/experiment/roll.h"
 #include "dem/experiment/tilt.h"
-#include "dem/experiment/tilt_on_grains.h"
 
 namespace repose::calibrate {
 namespace {
@@ -72,14 +64,6 @@ ExportFacts facts_of(const RunSpec& spec, std::uint64_t seed) {
   return facts;
 }
 
-double number_in(const PrintedLines& printed, const char* name, const fs::path& folder) {
-  const auto found = printed.readings.find(name);
-  if (found != printed.readings.end()) return found->second;
-  base::refuse(folder / ProgramSimulator::kOutputFile,
-               fmt::format("LIGGGHTS ended without the line \"reading: {}\"", name),
-               "look there for what it says.");
-}
-
 class LiggghtsSimulator : public ProgramSimulator {
  public:
   LiggghtsSimulator(const dem::EngineChoice& choice, std::string version)
@@ -98,7 +82,9 @@ class LiggghtsSimulator : public ProgramSimulator {
   }
 
   int processes(const dem::ExperimentEntry& entry) const override {
-    return entry.is_bulk ? choice_.processes : 1;
+    // Of heaps alone. Several processes pour a tube full in other layers, which come to lie denser;
+    // of single grains there is nothing to divide.
+    return &entry == dem::experiment_of<dem::HeapProtocol>() ? choice_.processes : 1;
   }
 
   bool has_state(const dem::ExperimentEntry& entry) const override { return entry.is_pictured; }
@@ -217,159 +203,43 @@ std::vector<std::string> LiggghtsSimulator::differences(const RunSpec& spec) con
     all.push_back(fmt::format("{}: {}", one.target_name, one.limits));
   }
   if (is_one_of<dem::HeapProtocol>(spec.protocol)) {
+    if (!spec.protocol.as<dem::HeapProtocol>().grains) {
+      all.push_back(fmt::format(
+          "{} grains are put into the tube, by an estimate of what fills it; ours is filled to "
+          "its rim.",
+          grains_in_heap(facts)));
+    }
     all.emplace_back(
         "The tube, of 96 flat sides, is filled by grains that are placed above each other and fall "
         "all at once; ours rain in layers.");
   }
+  if (is_one_of<dem::RollProtocol>(spec.protocol) &&
+      spec.model.rolling == dem::RollingModel::elastic_plastic) {
+    // The rolling damper of model C, .6 sqrt(k_r I) with k_r ~ k_n ~ sqrt(overlap) (dem/THEORY.md),
+    // takes of a spin the integral of overlap^(1/4) over a landing's time. Over Hertz impacts with
+    // m x'' = -k x^(3/2) - c x^(1/4) x', to the end of the contact there, here to where the force
+    // is 0, each with the c of its restitution, it is 1.37 times ours with .31, 1.02 times with .9.
+    all.emplace_back(
+        "A grain that hops as it rolls stops earlier: the rolling damper acts as long as a landing "
+        "lasts, which there is longer, as the damper pulls. A ball of 18 mm on steel stops 6 % "
+        "earlier with a restitution of 0.31, 4 % with 0.6 and 0.4 % with 0.9; the sample's nut 8 "
+        "% with 0.31.");
+  }
   if (is_one_of<dem::TiltProtocol>(spec.protocol)) {
     all.emplace_back("Gravity turns in steps of 2 ms in place of the plate.");
+    if (spec.model.rolling == dem::RollingModel::relative_constant_torque) {
+      // tests/peers/simulator_test.cpp
+      all.emplace_back(
+          "A body that cdt keeps trembling slides up to .2 degrees later: the tangential damper "
+          "there adds to a spring at Coulomb's limit, to which ours is limited, too.");
+    }
   }
   return all;
 }
 
-/// A mean of single grains, and what goes with it.
-dem::Repeat drops_in(const fs::path& folder, const std::string& name, int grains) {
-  double sum = 0, squares = 0, above = 0;
-  int never_rose = 0;
-  std::vector<double> rises;
-  for (int k = 1; k <= grains; ++k) {
-    const auto bounce = bounce_in(folder / fmt::format("{}_{}.txt", name, k));
-    never_rose += bounce ? 0 : 1;
-    rises.push_back(bounce ? kMmPerM * bounce->rise_m : 0);
-    sum += rises.back();
-    above += bounce ? kMmPerM * bounce->above_first_touch_m : 0;
-  }
-  const double mean = sum / grains;
-  for (const double rise : rises) squares += (rise - mean) * (rise - mean);
-  dem::Repeat repeat;
-  repeat.value = mean;
-  repeat.readings = {{"above_first_touch_mm", above / grains},
-                     {"sd_mm", dem::scatter_of(squares, rises.size())},
-                     {"never_rose", never_rose}};
-  return repeat;
-}
-
-dem::Repeat tilt_in(const PrintedLines& printed, const ExportFacts& facts, const fs::path& folder) {
-  const auto& protocol = facts.study().protocol<dem::TiltProtocol>();
-  dem::Slide slide;
-  for (const auto& [angle, slip] : printed.slips) slide.add(angle, slip, facts.grain());
-  if (!printed.slips.empty() && printed.slips.back().second < dem::most_slip_m(facts.grain())) {
-    throw dem::NoMeasurement(
-        fmt::format("tilt: the body did not slide up to {:g} degrees", dem::kSteepest_deg));
-  }
-  dem::Repeat repeat;
-  const double begin = facts.tilt_begin_deg();
-  repeat.value = dem::onset_deg(slide, begin, protocol.rate_deg_s);
-  repeat.readings = {{"half_mm_slip_deg", number_in(printed, "half_mm_slip_deg", folder)},
-                     {"begin_deg", begin}};
-  return repeat;
-}
-
-dem::Repeat roll_in(const PrintedLines& printed, const ExportFacts& facts, const fs::path& folder) {
-  const double moved_m = number_in(printed, "still_moved_m", folder);
-  const double reached_mm = number_in(printed, "roll_mm", folder);
-  if (moved_m > 1e-3 * facts.grain().reach_m()) {
-    throw dem::NoMeasurement(fmt::format(
-        "roll: the grain still moves {:.2f} m from the foot, by {:.2g} mm in a tenth of "
-        "a second. Fix: more rolling friction between particle and wall, which is {:g}.",
-        reached_mm / kMmPerM, kMmPerM * moved_m, facts.study().model.grain_wall.rolling_friction));
-  }
-  dem::Repeat repeat;
-  repeat.value = std::max(0., reached_mm);
-  repeat.readings = {{"lateral_mm", number_in(printed, "lateral_mm", folder)},
-                     {"stopped_on_incline", reached_mm > 0 ? 0 : 1},
-                     {"releases", number_in(printed, "releases", folder)},
-                     {"time_s", number_in(printed, "steps", folder) *
-                                    facts.timestep_s(dem::experiment_of<dem::RollProtocol>())}};
-  return repeat;
-}
-
-dem::Repeat heap_in(const PrintedLines& printed, const RunSpec& spec, std::uint64_t seed,
-                    const ExportFacts& facts, const fs::path& folder) {
-  const auto& protocol = spec.protocol.as<dem::HeapProtocol>();
-  const auto spheres = static_cast<double>(facts.grain().spheres.size());
-  const int inserted = static_cast<int>(number_in(printed, "inserted_spheres", folder) / spheres);
-  const int filled = static_cast<int>(number_in(printed, "filled_spheres", folder) / spheres);
-  if (!printed.remark.empty()) {
-    throw dem::NoMeasurement("heap: grains hang in the tube. Fix: a wider tube, or less friction.");
-  }
-  if (filled < inserted) {
-    throw dem::NoMeasurement(fmt::format(
-        "heap: {} of {} grains were lost while the tube was filled: they went through its wall or "
-        "over its rim. Fix: a stiffer grain (stiffness_factor), or fewer grains.",
-        inserted - filled, inserted));
-  }
-  const bool are_balls = facts.is_sphere();
-  dem::StandingHeap heap{
-      .grains = grains_in(folder / (are_balls ? "heap.dump" : "heap_bodies.dump"), are_balls),
-      .lifted = filled};
-  std::erase_if(heap.grains, [](const dem::Grain& grain) { return grain.position.z() < 0; });
-  if (static_cast<int>(heap.grains.size()) > filled) {
-    base::refuse(folder / "heap.dump", "has more grains than were put in", "run it again.");
-  }
-  heap.is_at_rest = number_in(printed, "moved_m", folder) <= 1e-3 * facts.grain().reach_m();
-  dem::Repeat repeat = dem::heap_from(spec.model, protocol, seed, heap);
-  repeat.readings["time_s"] = number_in(printed, "steps", folder) *
-                              facts.timestep_s(dem::experiment_of<dem::HeapProtocol>());
-  return repeat;
-}
-
-dem::Repeat fill_in(const PrintedLines& printed, const ExportFacts& facts, const fs::path& folder) {
-  if (!printed.remark.empty()) {
-    throw dem::NoMeasurement("fill: the grains do not reach the tube's rim. Fix: a lower tube.");
-  }
-  const auto& protocol = facts.study().protocol<dem::FillProtocol>();
-  const double radius = .5 * protocol.tube_diameter_m;
-  const double tube_m3 = std::numbers::pi * radius * radius * protocol.tube_height_m;
-  const double grains = number_in(printed, "grains", folder);
-  dem::Repeat repeat;
-  repeat.value = number_in(printed, "bulk_density_kg_m3", folder);
-  repeat.readings = {{"grains", grains},
-                     {"mass_g", 1e3 * grains * facts.mass_kg()},
-                     {"solid_fraction", grains * facts.grain().volume_m3 / tube_m3}};
-  return repeat;
-}
-
-/// Of bodies on glued grains, whose angle is the mean of their places.
-dem::Repeat places_in(const PrintedLines& printed, const fs::path& folder) {
-  dem::Repeat repeat;
-  repeat.value = number_in(printed, "angle_deg", folder);
-  double squares = 0;
-  for (const double place : printed.places) squares += std::pow(place - *repeat.value, 2);
-  repeat.readings = {{"sd_deg", dem::scatter_of(squares, printed.places.size())}};
-  return repeat;
-}
-
 dem::Repeat LiggghtsSimulator::read_back(const RunSpec& spec, std::uint64_t seed,
                                          const fs::path& folder) const {
-  const ExportFacts facts = facts_of(spec, seed);
-  const PrintedLines printed = printed_lines(folder / kOutputFile);
-  const dem::Protocol& protocol = spec.protocol;
-  const std::string name = dem::name_of(&spec.entry());
-  dem::Repeat repeat;
-  if (is_one_of<dem::DropProtocol>(protocol)) {
-    repeat = drops_in(folder, name, protocol.as<dem::DropProtocol>().grains);
-  } else if (is_one_of<dem::GrainDropProtocol>(protocol)) {
-    repeat = drops_in(folder, name, protocol.as<dem::GrainDropProtocol>().grains);
-  } else if (is_one_of<dem::TiltProtocol>(protocol)) {
-    repeat = tilt_in(printed, facts, folder);
-  } else if (is_one_of<dem::RollProtocol>(protocol)) {
-    repeat = roll_in(printed, facts, folder);
-  } else if (is_one_of<dem::HeapProtocol>(protocol)) {
-    repeat = heap_in(printed, spec, seed, facts, folder);
-  } else if (is_one_of<dem::FillProtocol>(protocol)) {
-    repeat = fill_in(printed, facts, folder);
-  } else if (is_one_of<dem::PendulumProtocol>(protocol)) {
-    repeat.value = number_in(printed, "swing_deg", folder);
-    repeat.readings = {{"rise_mm", number_in(printed, "rise_mm", folder)}};
-  } else {
-    repeat = places_in(printed, folder);
-  }
-  repeat.timestep_s = facts.timestep_s(&spec.entry());
-  repeat.steps = printed.steps;
-  repeat.clump_steps =
-      static_cast<double>(repeat.steps) * repeat.readings.number("grains").value_or(1);
-  return repeat;
+  return liggghts_result(spec, facts_of(spec, seed), seed, folder);
 }
 
 }  // namespace

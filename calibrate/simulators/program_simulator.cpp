@@ -122,6 +122,8 @@ dem::Repeat ProgramSimulator::run(const RunCall& call) const {
 }
 
 std::optional<std::string> printed_by(const std::vector<std::string>& words) {
+  constexpr std::chrono::seconds kLongest{60};
+  const Clock::time_point begun = Clock::now();
   const WorkFolder folder{{}};
   const fs::path output = folder.path() / ProgramSimulator::kOutputFile;
   try {
@@ -129,6 +131,7 @@ std::optional<std::string> printed_by(const std::vector<std::string>& words) {
     for (;;) {
       const auto end = program.end();
       if (end && !end->is_good()) return std::nullopt;
+      if (Clock::now() - begun > kLongest) return std::nullopt;
       if (end) return base::read_whole_file(output);
       std::this_thread::sleep_for(kBetweenLooks);
     }

@@ -45,7 +45,7 @@ class ProgramSimulator : public Simulator {
 };
 
 /// What an executable of that name, looked for in PATH, prints when it is started so; none where
-/// there is none, or it fails.
+/// there is none, or it fails, or takes more than a minute.
 std::optional<std::string> printed_by(const std::vector<std::string>& words);
 
 }  // namespace repose::calibrate

@@ -111,7 +111,14 @@ void check(const Model& model, const TiltProtocol& protocol) {
   errors.throw_if_any();
 }
 
-/// Slope at which a lying body tips over the lowest of its spheres farthest down the slope (+x).
+}  // namespace
+
+Model quiet(Model model) {
+  model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMaxRestitution);
+  model.grain_wall.restitution_exponent = 0;  // slow contacts would restore more than that
+  return model;
+}
+
 double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
   const double height = reach_towards(body, pose, -Vector::UnitZ());
   double foot = 0;
@@ -121,14 +128,6 @@ double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
     if (is_low) foot = std::max(foot, centre.x());
   }
   return std::atan2(foot, height) / kDegree;
-}
-
-}  // namespace
-
-Model quiet(Model model) {
-  model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMaxRestitution);
-  model.grain_wall.restitution_exponent = 0;  // slow contacts would restore more than that
-  return model;
 }
 
 double most_slip_m(const ClumpShape& grain) {

@@ -40,6 +40,10 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
 /// The same bench with contacts that do not rattle: what run_tilt() simulates.
 Model quiet(Model model);
 
+/// Slope at which a body that lies so tips over the lowest of its spheres farthest down the slope
+/// (+x).
+double tipping_deg(const ClumpShape& body, const Quaternion& pose);
+
 /// What is noted while a body slides, here or in another program.
 struct Slide {
   std::vector<double> angle_deg;  ///< of the plate, within the slip that the onset is read from

@@ -1,9 +1,11 @@
 #include "calibrate/simulators/simulators.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "base/fingerprint.h"
@@ -73,7 +75,8 @@ class SimulatorsTest : public ::testing::Test {
   }
 
   /// Why the study's experiment is refused; empty: it is not.
-  static std::string refused(const dem::Study& study, dem::EngineChoice choice = liggghts()) {
+  static std::string refused(const dem::Study& study,
+                             const dem::EngineChoice& choice = liggghts()) {
     const NamedGrain grain(dem::build_grain(study.grain));
     std::vector<base::Fault> faults;
     const auto simulator = liggghts_simulator(choice);
@@ -224,6 +227,127 @@ TEST_F(SimulatorsTest, AProgramThatLeavesNoReadingIsAnError) {
   spec.simulator = liggghts_simulator(liggghts());
   EXPECT_THAT(error_of([&] { simulate_experiment(spec, 1); }),
               HasSubstr("ended without the line \"reading: still_moved_m\""));
+}
+
+/// What a fake LIGGGHTS says of a heap of balls, and leaves of it.
+struct FakeHeap {
+  int put_in = 30;
+  int filled = 30;
+  int under_plate = 0;
+  double filled_m = .1;
+  int left = 30;
+  int announced = 30;
+  std::string remark = {};
+};
+
+/// A pyramid of balls of 18 mm, 4 x 4, 3 x 3, 2 x 2 and 1, without the first ones of the lowest
+/// layer.
+std::string rows_of_pyramid(int count) {
+  constexpr int kAll = 30;
+  constexpr double kRadius = .009;
+  std::string rows;
+  int number = 0;
+  for (int side = 4; side > 0; --side) {
+    const double height = kRadius + (4 - side) * kRadius * std::sqrt(2.);
+    for (int k = 0; k < side * side; ++k) {
+      const auto place = [&](int at) { return kRadius * (2 * at - side + 1); };
+      if (++number <= kAll - count) continue;
+      rows += fmt::format("{} 1 {:.6f} {:.6f} {:.6f} {}\n", number, place(k % side),
+                          place(k / side), height, kRadius);
+    }
+  }
+  return rows;
+}
+
+class LostGrains : public SimulatorsTest {
+ protected:
+  /// Made by such a program.
+  RunResult heap_of(const FakeHeap& heap) const {
+    const std::string dump = fmt::format(
+        "ITEM: TIMESTEP\n9\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 1\n"
+        "-1 1\nITEM: ATOMS id type x y z radius\n{}",
+        heap.announced, rows_of_pyramid(heap.left));
+    const std::string said = fmt::format(
+        "reading: inserted_grains {}\nreading: filled_spheres {}\nreading: filled_m {}\n"
+        "reading: spheres_under_plate {}\nreading: moved_m 0\nreading: steps 1000\n{}\n",
+        heap.put_in, heap.filled, heap.filled_m, heap.under_plate, heap.remark);
+    programs_.add("liggghts", std::string(kBanner) + "\n[ $2 = /dev/null ] && exit\necho '" + said +
+                                  "'\necho '" + dump + "' > heap.dump");
+    const dem::Study balls = dem::read_study(
+        folder_.write("study.toml", repose::testing::kSoftBalls + repose::testing::kRoughContacts +
+                                        "[contact]\nrolling_model = \"elastic_plastic\"\n"
+                                        "[experiment.heap]\ntube_diameter_mm = 90\n"
+                                        "tube_height_mm = 220\nplate_mm = 400\ngrains = 30\n"));
+    RunSpec spec = spec_of(balls, &dem::experiment_named("heap"),
+                           NamedGrain(dem::build_grain(balls.grain)), 0);
+    spec.simulator = liggghts_simulator(liggghts());
+    return simulate_experiment(spec, 1);
+  }
+};
+
+TEST_F(LostGrains, NoneAreMissingWhereAllLieOnThePlate) {
+  const RunResult heap = heap_of({});
+  EXPECT_EQ(heap.failure, "");
+  EXPECT_EQ(heap.readings.at("grains"), 30);
+  EXPECT_EQ(heap.readings.at("grains_on_plate"), 30);
+  EXPECT_EQ(heap.readings.at("grains_off_plate"), 0);
+}
+
+TEST_F(LostGrains, ThatFellOffThePlateAreCounted) {
+  const RunResult heap = heap_of({.left = 28, .announced = 28});
+  EXPECT_EQ(heap.failure, "");
+  EXPECT_EQ(heap.readings.at("grains"), 30);
+  EXPECT_EQ(heap.readings.at("grains_on_plate"), 28);
+  EXPECT_EQ(heap.readings.at("grains_off_plate"), 2);
+}
+
+TEST_F(LostGrains, OfTheFillingAreARunWithoutAReading) {
+  EXPECT_THAT(heap_of({.filled = 27}).failure,
+              AllOf(HasSubstr("3 of 30 grains were lost while the tube was filled"),
+                    HasSubstr("Fix: stiffer grains (young_modulus_pa is 1e+06")));
+  EXPECT_THAT(heap_of({.put_in = 26, .filled = 26}).failure,
+              AllOf(HasSubstr("put 26 of 30 grains into the tube"), HasSubstr("grains = 26")));
+}
+
+TEST_F(LostGrains, OfAFillAreARunWithoutAReading) {
+  const auto fill_of = [&](const std::string& said) {
+    programs_.add("liggghts",
+                  std::string(kBanner) + "\n[ $2 = /dev/null ] && exit\necho '" + said + "'");
+    const dem::Study nuts = study("[experiment.fill]\n");
+    RunSpec spec =
+        spec_of(nuts, &dem::experiment_named("fill"), NamedGrain(dem::build_grain(nuts.grain)), 0);
+    spec.simulator = liggghts_simulator(liggghts());
+    return simulate_experiment(spec, 1);
+  };
+  const std::string full = "reading: grains 80\nreading: bulk_density_kg_m3 500\n";
+  // Two spheres a grain.
+  EXPECT_EQ(fill_of(full + "reading: poured_grains 100\nreading: poured_spheres 200\n").value, 500);
+  EXPECT_THAT(fill_of(full + "reading: poured_grains 100\nreading: poured_spheres 193\n").failure,
+              HasSubstr("4 of 100 grains were lost"));
+  EXPECT_THAT(fill_of("The grains do not reach the rim.").failure,
+              HasSubstr("do not reach the tube's rim. Fix: a lower tube"));
+}
+
+TEST_F(LostGrains, ThroughThePlateAreARunWithoutAReading) {
+  EXPECT_THAT(heap_of({.under_plate = 2, .left = 28, .announced = 28}).failure,
+              HasSubstr("2 grains or more went through the plate"));
+}
+
+TEST_F(LostGrains, ThatAreAllAreARunWithoutAReading) {
+  EXPECT_THAT(heap_of({.remark = "All grains left the plate."}).failure,
+              HasSubstr("all 30 grains left the plate. Fix: a larger plate"));
+  EXPECT_THAT(heap_of({.remark = "The grains hang in the tube."}).failure,
+              HasSubstr("grains hang in the tube"));
+}
+
+TEST_F(LostGrains, OverTheRimAreARunWithoutAReading) {
+  EXPECT_THAT(heap_of({.filled_m = .25}).failure,
+              AllOf(HasSubstr("30 grains fill the tube to 250 mm, over its rim at 220 mm"),
+                    HasSubstr("Fix: fewer grains")));
+}
+
+TEST_F(LostGrains, ThatTheDumpAnnouncesAreAnError) {
+  EXPECT_THAT(error_of([&] { heap_of({.left = 28}); }), HasSubstr("is cut short: 28 rows of 30"));
 }
 
 }  // namespace

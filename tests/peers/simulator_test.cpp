@@ -1,6 +1,7 @@
 // LIGGGHTS as an engine: our experiments, made and read back by it, beside ours.
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "calibrate/experiment/run_spec.h"
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/simulators/simulators.h"
+#include "dem/experiment/heap.h"
 #include "dem/experiment/tilt.h"
 #include "dem/state/state_file.h"
 #include "dem/study/grain_source.h"
@@ -90,15 +92,22 @@ class LiggghtsLaws : public LiggghtsSimulator {
   }
 };
 
-// The onset of sliding is that of friction: atan(.4) in both, whatever the damper. With cdt the
-// body trembles, which moved its onset by .2 degrees; with epsd by less than .05.
+// The onset of sliding is that of friction, atan(.4) = 21.80 degrees, in both with epsd. With cdt
+// the body trembles: its contacts stick again and again, and there the tangential damper of
+// LIGGGHTS adds to a spring at Coulomb's limit, which holds the body up to .19 degrees longer, at
+// .09 to .2 in steps of 4 to 34 us. With `tangential_damping off`, by hand, it slid at 21.78
+// degrees.
 TEST_P(LiggghtsLaws, TiltIsReadAtItsOnset) {
-  const double tolerance_deg = GetParam() == "elastic_plastic" ? .1 : .3;
+  constexpr double kTolerance_deg = .1;
+  const double held_deg = GetParam() == "elastic_plastic" ? 0 : .2;
   const auto runs = both(as_exported(study()), "tilt");
-  EXPECT_NEAR(runs[1].value.value(), std::atan(.4) * 180 / M_PI, tolerance_deg);
-  EXPECT_NEAR(runs[1].value.value(), runs[0].value.value(), tolerance_deg);
-  EXPECT_NEAR(runs[1].readings.at("half_mm_slip_deg"), runs[0].readings.at("half_mm_slip_deg"),
-              tolerance_deg);
+  const double onset_deg = std::atan(.4) * 180 / M_PI;
+  EXPECT_NEAR(runs[0].value.value(), onset_deg, kTolerance_deg);
+  EXPECT_GT(runs[1].value.value(), onset_deg - kTolerance_deg);
+  EXPECT_LT(runs[1].value.value(), onset_deg + held_deg + kTolerance_deg);
+  EXPECT_NEAR(runs[1].readings.at("half_mm_slip_deg"),
+              runs[0].readings.at("half_mm_slip_deg") + held_deg / 2,
+              kTolerance_deg + held_deg / 2);
 }
 
 // The same grains in the same poses: balls, whose dampers give the same rebound.
@@ -140,6 +149,51 @@ TEST_F(LiggghtsSimulator, HeapIsReadBackRenderedAndMeasuredAsOurs) {
   EXPECT_EQ(text_of(simulate_experiment(spec, 3, options)), text_of(heap));
   spec.simulator = calibrate::own_simulator();
   EXPECT_FALSE(store.find(spec, 3));
+}
+
+// Of grains so soft that most fall through the plate.
+TEST_F(LiggghtsSimulator, GrainsThatFallThroughThePlateAreCounted) {
+  dem::Study balls = study(kSoftBalls);
+  balls.model.grain_material.young_modulus_pa = 500;
+  calibrate::RunSpec spec = spec_of(balls, &dem::experiment_named("heap"),
+                                    calibrate::NamedGrain(dem::build_grain(balls.grain)), 0);
+  spec.simulator = calibrate::liggghts_simulator({.program = "liggghts", .timeout_s = {}});
+  const RunResult heap = simulate_experiment(spec, 1);
+  EXPECT_FALSE(heap.value);
+  EXPECT_THAT(heap.failure,
+              ::testing::ContainsRegex("[0-9]+ of 120 grains were lost while the tube was filled"));
+}
+
+TEST_F(LiggghtsSimulator, GrainsThatFallOffThePlateAreCounted) {
+  dem::Study balls = study(kSoftBalls);
+  dem::Protocol& protocol = balls.experiments.at(&dem::experiment_named("heap")).protocol;
+  protocol.as<dem::HeapProtocol>().plate_m = .15;
+  calibrate::RunSpec spec = spec_of(balls, &dem::experiment_named("heap"),
+                                    calibrate::NamedGrain(dem::build_grain(balls.grain)), 0);
+  spec.simulator = calibrate::liggghts_simulator({.program = "liggghts", .timeout_s = {}});
+  const RunResult heap = simulate_experiment(spec, 1);
+  EXPECT_EQ(heap.failure, "");
+  EXPECT_GT(heap.readings.at("grains_off_plate"), 5);
+  EXPECT_EQ(heap.readings.at("grains_on_plate") + heap.readings.at("grains_off_plate"), 120);
+}
+
+// A grain finds no room where it would lie across the border of two processes: it is put in later.
+TEST_F(LiggghtsSimulator, SeveralProcessesPutAllGrainsIn) {
+  if (run_program("mpirun", {}, {"--version"}).exit_code != 0) {
+    GTEST_SKIP() << "mpirun is not installed; nothing was compared. Fix: apt-get install "
+                    "openmpi-bin";
+  }
+  // Else it starts nothing for the administrator, whom containers run as.
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  const dem::Study nuts = study();
+  calibrate::RunSpec spec = spec_of(nuts, &dem::experiment_named("heap"),
+                                    calibrate::NamedGrain(dem::build_grain(nuts.grain)), 0);
+  spec.simulator =
+      calibrate::liggghts_simulator({.program = "liggghts", .processes = 2, .timeout_s = {}});
+  const RunResult heap = simulate_experiment(spec, 1);
+  EXPECT_EQ(heap.failure, "");
+  EXPECT_EQ(heap.readings.at("grains"), 120);
 }
 
 TEST_F(LiggghtsSimulator, TheSameSeedGivesTheSameHeapAndAnotherAnother) {
