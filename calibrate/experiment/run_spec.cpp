@@ -62,6 +62,9 @@ std::string description_of(const RunSpec& spec, std::uint64_t seed) {
   json["stiffness_factor"] = model.stiffness_factor;
   json["timestep_fraction"] = model.timestep_fraction;
   json["timestep_s"] = model.timestep_s ? Json(*model.timestep_s) : Json(nullptr);
+  if (const std::string engine = spec.simulator->identity(spec); !engine.empty()) {
+    json["engine"] = Json::parse(engine);
+  }
   json["seed"] = seed;
   json["simulator_version"] = kSimulatorVersion;
   return json.dump();

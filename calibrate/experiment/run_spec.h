@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "calibrate/experiment/heap_angle.h"
+#include "calibrate/experiment/simulator.h"
 #include "dem/experiment/experiment_table.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"
@@ -25,6 +27,7 @@ struct RunSpec {
   std::string grain_fingerprint;
   HeapViewing viewing = {.views = 0};  ///< none of experiments that are not pictured
   std::string definition = {};         ///< as RunResult::definition: how it is read, not what it is
+  std::shared_ptr<const Simulator> simulator = own_simulator();  ///< that makes it
 
   const dem::ExperimentEntry& entry() const { return dem::entry_of(protocol); }
 };

@@ -218,6 +218,10 @@ bool RunStore::copy_state(const RunSpec& spec, std::uint64_t seed, const std::st
   return true;
 }
 
+fs::path RunStore::work_folder(const RunSpec& spec, std::uint64_t seed) const {
+  return runs() / (key_of(spec, seed) + ".work");
+}
+
 bool RunStore::has_restart(const RunSpec& spec, std::uint64_t seed) const {
   return is_there(file(spec, seed, kRestartEnding));
 }

@@ -78,6 +78,9 @@ class RunStore {
   /// @throws base::InputError  it cannot be written.
   bool copy_state(const RunSpec& spec, std::uint64_t seed, const std::string& name) const;
 
+  /// Where another program makes the run; not there else, but after one that failed.
+  std::filesystem::path work_folder(const RunSpec& spec, std::uint64_t seed) const;
+
   bool has_restart(const RunSpec& spec, std::uint64_t seed) const;
   /// None when the run was not begun.
   /// @throws base::InputError  the file was changed, or belongs to another run.

@@ -85,9 +85,14 @@ class ExperimentRunner {
     return run;
   }
 
+  bool keeps_restarts() const {
+    return options_.folder != nullptr && spec_.entry().resume != nullptr &&
+           spec_.simulator->can_resume();
+  }
+
   /// One that has no film, where one is asked for, is of no use.
   std::optional<SavedRestart> usable_restart() const {
-    if (options_.folder == nullptr || spec_.entry().resume == nullptr) return std::nullopt;
+    if (!keeps_restarts()) return std::nullopt;
     std::optional<SavedRestart> restart = options_.folder->find_restart(spec_, seed_);
     if (restart && options_.trajectory &&
         restart->record.trajectory_s != options_.trajectory->interval_s) {
@@ -106,7 +111,7 @@ class ExperimentRunner {
       record.frame = [&](const dem::Simulation& simulation) { film->add(simulation); };
     }
     Clock::time_point saved_at = start_;
-    if (options_.folder != nullptr && spec_.entry().resume != nullptr) {
+    if (keeps_restarts()) {
       record.is_restart_due = [&] { return Clock::now() - saved_at >= kBetweenRestarts; };
       record.save_restart = [&](const dem::Simulation& simulation,
                                 const dem::RunProgress& progress) {
@@ -121,12 +126,14 @@ class ExperimentRunner {
       };
     }
     const double whole = spec_.viewing.views > 0 ? kSimulationFraction : 1;
-    const auto report = [&](double fraction, const dem::Simulation&) {
-      return goes_on(whole * fraction);
-    };
-    const dem::ExperimentEntry& entry = spec_.entry();
-    return restart ? entry.resume(spec_.model, spec_.protocol, seed_, restart->from, report, record)
-                   : entry.run(spec_.model, spec_.protocol, seed_, report, record);
+    return spec_.simulator->run(
+        {.spec = spec_,
+         .seed = seed_,
+         .folder = options_.folder == nullptr ? std::filesystem::path()
+                                              : options_.folder->work_folder(spec_, seed_),
+         .goes_on = [&](double fraction) { return goes_on(whole * fraction); },
+         .record = record,
+         .from = restart ? &restart->from : nullptr});
   }
 
   bool goes_on(double fraction) const { return !options_.report || options_.report(fraction); }

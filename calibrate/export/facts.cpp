@@ -175,9 +175,15 @@ double ExportFacts::tilt_begin_deg() const {
       {0.0, study_.protocol<dem::TiltProtocol>().start_deg, slides_deg - kTiltLead_deg});
 }
 
-dem::Grain ExportFacts::roll_start() const {
+dem::Grain ExportFacts::roll_start() const { return roll_starts().front(); }
+
+std::vector<dem::Grain> ExportFacts::roll_starts() const {
   dem::Random random(study_.seed);
-  return dem::released(grain(), study_.protocol<dem::RollProtocol>(), random);
+  std::vector<dem::Grain> starts;
+  for (int k = 0; k < dem::most_releases(grain()); ++k) {
+    starts.push_back(dem::released(grain(), study_.protocol<dem::RollProtocol>(), random));
+  }
+  return starts;
 }
 
 double ExportFacts::roll_flat_m() const {
@@ -297,7 +303,9 @@ double ExportFacts::timestep_s(dem::Experiment experiment) const {
   }
   std::vector<dem::Wall> walls;
   if (experiment->has_plate) walls.push_back(dem::study_wall(dem::Plane{}));
-  return dem::model_setup(model, shape, walls, speed_m_s(experiment)).timestep_s;
+  const double fraction =
+      has_longer_steps_ && experiment->is_bulk ? dem::kBulkFraction : dem::kImpactFraction;
+  return dem::model_setup(model, shape, walls, speed_m_s(experiment), fraction).timestep_s;
 }
 
 }  // namespace repose::calibrate

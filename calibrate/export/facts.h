@@ -49,8 +49,11 @@ class ExportFacts {
   /// Materials and coefficients as an experiment has them, softened as there.
   dem::ContactTable contacts(dem::Experiment experiment) const;
   double stiffness(dem::Experiment experiment) const;
-  /// Half of the longest step that our engine accepts there, s.
+  /// Half of the longest step that our engine accepts there for impacts, s.
   double timestep_s(dem::Experiment experiment) const;
+  /// From now on bulks have half of the longest step that ours take, which are four times as long.
+  /// Single grains, which slide and roll for long, would creep.
+  void take_longer_steps() { has_longer_steps_ = true; }
 
   /// Poses of the drop, as simulated with the study's first seed.
   std::vector<TouchingPose> drop_poses() const;
@@ -64,8 +67,10 @@ class ExportFacts {
   TouchingPose tilt_pose() const;
   /// Angle at which the plate begins to turn.
   double tilt_begin_deg() const;
-  /// Where the grain of the roll is let go, with the study's first seed.
+  /// Where the grain of the roll is let go, with the study's first seed; and all releases, of which
+  /// each is for a grain that stayed on the incline before.
   dem::Grain roll_start() const;
+  std::vector<dem::Grain> roll_starts() const;
   /// A length of the flat that no grain passes, m.
   double roll_flat_m() const;
 
@@ -73,6 +78,7 @@ class ExportFacts {
   dem::Study study_;
   std::vector<FittedValue> fitted_;
   ExportTarget target_;
+  bool has_longer_steps_ = false;
 };
 
 /// Young's modulus and Poisson's ratio of which two equal bodies have the E* and G* of a pair.

@@ -161,6 +161,7 @@ ExportedFile tilt_file(const ExportFacts& facts) {
   fields.set("RATE", protocol.rate_deg_s);
   fields.set("BEGIN", begin);
   fields.set("HEIGHT", pose.height_m);
+  fields.set("MOST", dem::most_slip_m(facts.grain()));
   fields.set("ROOM", 10 * body.reach_m());
   fields.set("SETTLE_STEPS", steps(.05, timestep));
   fields.set("EVERY", steps(.002, timestep));
@@ -169,16 +170,22 @@ ExportedFile tilt_file(const ExportFacts& facts) {
 
 ExportedFile roll_file(const ExportFacts& facts) {
   const dem::RollProtocol& protocol = facts.study().protocol<dem::RollProtocol>();
-  const dem::Grain start = facts.roll_start();
+  const std::vector<dem::Grain> starts = facts.roll_starts();
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(dem::experiment_of<dem::RollProtocol>());
   DeckFields fields = deck_fields(facts, dem::experiment_of<dem::RollProtocol>());
   set_body(facts.grain(), facts.study().model.grain_material.density_kg_m3, fields);
-  set_pose(start.orientation, fields);
   fields.set("RELEASE_MM", 1e3 * protocol.release_m);
   fields.set("INCLINE", protocol.incline_deg);
-  fields.set("X", start.position.x());
-  fields.set("Z", start.position.z());
+  fields.set("RELEASES", static_cast<int>(starts.size()));
+  int number = 0;
+  for (const dem::Grain& start : starts) {
+    DeckFields& own = fields.add_section("POSE");
+    own.set("NUMBER", ++number);
+    own.set("X", start.position.x());
+    own.set("Z", start.position.z());
+    set_pose(start.orientation, own);
+  }
   fields.set("BEHIND", 5 * (protocol.release_m + 10 * reach));
   fields.set("FLAT", facts.roll_flat_m());
   fields.set("END", facts.roll_flat_m() - 2 * reach);  // there it would be lost
@@ -190,7 +197,16 @@ ExportedFile roll_file(const ExportFacts& facts) {
   return {.name = "roll.lig", .text = filled("liggghts/roll.lig", fields)};
 }
 
+double largest_radius_m(const dem::ClumpShape& grain) {
+  double largest = 0;
+  for (const dem::ClumpSphere& sphere : grain.spheres) largest = std::max(largest, sphere.radius);
+  return largest;
+}
+
 ExportedFile heap_file(const ExportFacts& facts) {
+  constexpr double kLook_s = .02;
+  constexpr double kInsert_s = .02;
+  constexpr int kAttempts = 100;  // in that time all fall, and leave the column's top empty
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(dem::experiment_of<dem::HeapProtocol>());
@@ -203,15 +219,26 @@ ExportedFile heap_file(const ExportFacts& facts) {
   DeckFields fields = deck_fields(facts, dem::experiment_of<dem::HeapProtocol>());
   mark_shape(facts.is_sphere(), fields);
   fields.set("GRAINS", grains);
+  fields.set("SPHERES", static_cast<int>(facts.grain().spheres.size()));
   fields.set("LIFT", protocol.lift_speed_m_s);
   fields.set("LIFT_MM_S", 1e3 * protocol.lift_speed_m_s);
   fields.set("TUBE_RADIUS", .5 * protocol.tube_diameter_m);
   fields.set("COLUMN", column);
+  fields.set("INSERT_STEPS", steps(kInsert_s, timestep));
+  fields.set("ATTEMPTS", kAttempts);
+  // Away from the edge, over which grains may fall.
+  fields.set("UNDER", std::max(.5 * protocol.tube_diameter_m, .5 * protocol.plate_m - 2 * reach));
+  fields.set("THICKNESS", protocol.plate_thickness_m);
   fields.set("ROOM", .5 * protocol.plate_m + 4 * reach);
   fields.set("BELOW", protocol.plate_thickness_m + 5 * reach);
   fields.set("TOP", column + 2 * protocol.tube_height_m);
   fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / kStandardGravity_m_s2), timestep));
-  fields.set("LIFT_STEPS", steps(lift_s(protocol), timestep));
+  fields.set("RADIUS", largest_radius_m(facts.grain()));
+  fields.set("LOOK_STEPS", steps(kLook_s, timestep));
+  // As dem/experiment/rest_test.h has it.
+  fields.set("WINDOW_STEPS", steps(2 * std::sqrt(2 * reach / kStandardGravity_m_s2), timestep));
+  fields.set("REST", 1e-3 * reach);
+  fields.set("LONGEST_S", kHeapRest_s);
   fields.set("REST_STEPS", steps(kHeapRest_s, timestep));
   return {.name = "heap.lig", .text = filled("liggghts/heap.lig", fields)};
 }

@@ -63,6 +63,11 @@ void add_model(const StudyResult& result, DataTable& data) {
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
     add(data, "seeds", seeds_text(joint->runs));
   }
+  if (from.simulator) {
+    add(data, "simulated by", from.simulator->name);
+    add(data, "other than our own engine",
+        fmt::format("{}", fmt::join(from.simulator->differences, " ")));
+  }
   add(data, "contact model", from.contact_model);
   add(data, "damping", from.damping + ": " + from.damping_definition);
   add(data, "rolling friction", from.rolling_model + ": " + from.rolling_definition);

@@ -81,7 +81,13 @@ struct HeapDefinition {
   NamedValues simulated_deg;  ///< what the heaps of the last check read by each; or none
 };
 
-/// How the study was simulated by this program.
+/// Another program that made the runs of a study.
+struct SimulatorFacts {
+  std::string name;                           ///< "LIGGGHTS-PUBLIC 3.8.0, 2 processes"
+  std::vector<std::string> differences = {};  ///< from our own engine, a sentence each
+};
+
+/// How the study was simulated, by this program or for it.
 struct ModelFacts {
   std::uint64_t first_seed = 0;
   std::string contact_model;
@@ -94,6 +100,7 @@ struct ModelFacts {
   NamedValues stiffness_factor;                        ///< of each experiment
   NamedValues shortest_timestep_s;                     ///< of each experiment's runs
   std::optional<HeapDefinition> heap_definition = {};  ///< none: there is no heap
+  std::optional<SimulatorFacts> simulator = {};        ///< none: our own engine
 };
 
 /// A command of the study's that made runs.

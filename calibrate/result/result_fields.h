@@ -51,6 +51,12 @@ void fields(Io& io, Held<Io, HeapDefinition>& definition) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, SimulatorFacts>& simulator) {
+  io("name", simulator.name);
+  io("differences", simulator.differences);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, ModelFacts>& model) {
   io("first_seed", model.first_seed);
   io("contact_model", model.contact_model);
@@ -66,6 +72,7 @@ void fields(Io& io, Held<Io, ModelFacts>& model) {
   if (io.has("heap_definition", model.heap_definition.has_value())) {
     io("heap_definition", model.heap_definition);
   }
+  if (io.has("engine", model.simulator.has_value())) io("engine", model.simulator);
 }
 
 template <typename Io>

@@ -196,6 +196,12 @@ std::optional<HeapDefinition> heap_definition_of(const StudyRecord& record, cons
                         .simulated_deg = simulated_deg};
 }
 
+std::optional<SimulatorFacts> simulator_of(const StudyRecord& record) {
+  if (record.simulator->title().empty()) return std::nullopt;
+  return SimulatorFacts{.name = record.simulator->title(),
+                        .differences = record.simulator_differences};
+}
+
 Provenance provenance_of(const StudyRecord& record, const Problem& problem,
                          const std::vector<Run>& runs, const NamedAngles& heap_angles_deg) {
   const dem::Study& study = record.study;
@@ -219,7 +225,8 @@ Provenance provenance_of(const StudyRecord& record, const Problem& problem,
                                     .size_sd_percent = size_sd_percent(study.model)},
                           .stiffness_factor = stiffness,
                           .shortest_timestep_s = shortest_timesteps(runs),
-                          .heap_definition = heap_definition_of(record, problem, heap_angles_deg)},
+                          .heap_definition = heap_definition_of(record, problem, heap_angles_deg),
+                          .simulator = simulator_of(record)},
       .assumed = study.assumed};
 }
 

@@ -16,6 +16,7 @@
 #include "calibrate/plan/offers.h"
 #include "calibrate/published/published_method.h"
 #include "calibrate/run/check_heaps.h"
+#include "calibrate/simulators/simulators.h"
 #include "calibrate/study/study_run.h"
 
 namespace repose::calibrate {
@@ -84,8 +85,10 @@ std::optional<StudyResult> fit_as_published(const PreparedStudy& study, const St
 std::optional<StudyResult> fit_jointly(const PreparedStudy& study, const StudyContext& context,
                                        const Note& note) {
   Problem problem = study.problem.problem;
-  // With what plans have left in the folder.
-  problem.offers = offers_in(context.folder, study.record.study, study.record.grain);
+  // With what plans have left in the folder, which are runs of our own engine.
+  if (study.record.study.engine.is_own()) {
+    problem.offers = offers_in(context.folder, study.record.study, study.record.grain);
+  }
   const auto outcome =
       with_remarks(context, note, [&] { return run_study(problem, study.record.budget, context); });
   if (!outcome) return std::nullopt;
@@ -128,6 +131,7 @@ PreparedStudy prepared(const StudyRequest& request, const Note& note) {
   }
   faults.throw_if_any();
   complete_record(record, notes);
+  choose_simulator(record);
   study.problem = problem_of(record.study, record.grain, record.budget);
   note_all(note, notes);
   note_all(note, study.problem.notes);
@@ -164,6 +168,16 @@ void complete_record(StudyRecord& record, std::vector<std::string>& notes) {
   if (!shape.empty()) notes.push_back(shape);
 }
 
+void choose_simulator(StudyRecord& record) {
+  record.simulator = simulator_for(record.study);
+  if (record.study.engine.is_own()) return;
+  record.simulator_differences = check_for_fit(*record.simulator, record.study, record.grain.shape);
+}
+
+int runs_at_once(const PreparedStudy& study) {
+  return std::max(1, study.threads / study.record.study.engine.processes);
+}
+
 void enter_folder(const PreparedStudy& study, const Note& note) {
   set_aside_old_result(study.folder, identity_of(study.record), note);
   write_study_record(study.folder, study.record);
@@ -173,6 +187,7 @@ StudySimulator simulator_of(const PreparedStudy& study, const RunStore& store) {
   StudySimulator simulator(study.record.study, study.record.grain,
                            study.problem.problem.parameters);
   simulator.store_in(store);
+  simulator.use(study.record.simulator);
   return simulator;
 }
 
@@ -187,7 +202,7 @@ std::optional<StudyResult> fit_study(const PreparedStudy& study, const StudyWatc
   const base::FolderLock lock(study.folder, lock_file_in(study.folder));
   enter_folder(study, watch.note);
   const StudySimulator simulator = simulator_of(study, store);
-  ThreadExecutor executor(simulator, study.threads);
+  ThreadExecutor executor(simulator, runs_at_once(study));
   const std::atomic<bool> never = false;
   StudyContext context{simulator, store, executor,
                        watch.is_interrupted != nullptr ? *watch.is_interrupted : never};

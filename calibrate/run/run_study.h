@@ -73,6 +73,13 @@ void set_aside_old_result(const std::filesystem::path& folder, const StudyIdenti
 /// @throws base::InputError  there is no such grain, or readings that no such bench gives.
 void complete_record(StudyRecord& record, std::vector<std::string>& notes);
 
+/// Finds the program that [engine] of a complete record asks for.
+/// @throws base::InputError  it is not there, or cannot simulate the study: every reason.
+void choose_simulator(StudyRecord& record);
+
+/// How many runs `threads` cores are enough for at once.
+int runs_at_once(const PreparedStudy& study);
+
 /// The folder becomes this study's. The result of another study, method or budget that it holds
 /// gets another name, which is noted.
 /// @throws base::InputError  the folder cannot be written.

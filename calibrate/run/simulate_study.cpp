@@ -11,6 +11,7 @@
 #include "calibrate/experiment/run_spec.h"
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/experiment/simulate_experiment.h"
+#include "calibrate/simulators/simulators.h"
 #include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
 
@@ -38,18 +39,20 @@ SimulatedRun simulate_study(const dem::Study& study, std::string_view experiment
                             std::uint64_t seed, const std::filesystem::path& folder) {
   const dem::ExperimentEntry& entry = dem::experiment_named(experiment);
   check(study, entry);
-  const RunSpec spec =
-      spec_of(study, &entry, NamedGrain(dem::build_grain(study.grain)), kHeapViews);
+  RunSpec spec = spec_of(study, &entry, NamedGrain(dem::build_grain(study.grain)), kHeapViews);
+  spec.simulator = simulator_for(study);
   if (folder.empty()) {
     return {.result = simulate_experiment(spec, seed, {.trajectory = {}, .report = {}}),
             .state = {}};
   }
   const RunStore store(folder);
   const base::FolderLock lock(folder, lock_file_in(folder));
-  SimulatedRun run{
-      .result = simulate_experiment(
-          spec, seed, {.folder = &store, .saves_state = true, .trajectory = {}, .report = {}}),
-      .state = {}};
+  SimulatedRun run{.result = simulate_experiment(spec, seed,
+                                                 {.folder = &store,
+                                                  .saves_state = spec.simulator->has_state(entry),
+                                                  .trajectory = {},
+                                                  .report = {}}),
+                   .state = {}};
   if (store.has_state(spec, seed)) run.state = store.state_file(spec, seed);
   return run;
 }

@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibrate/bench/bench_readings.h"
+#include "calibrate/experiment/simulator.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/shape/clump/clump_file.h"
 #include "dem/study/study.h"
@@ -54,6 +56,8 @@ struct StudyRecord {
   std::string method;                 ///< "joint" or "paper"
   Budget budget;
   Measurement measurement;
+  std::shared_ptr<const Simulator> simulator = own_simulator();  ///< that makes the runs
+  std::vector<std::string> simulator_differences = {};           ///< from ours, a sentence each
 };
 
 StudyIdentity identity_of(const StudyRecord& record);

@@ -143,6 +143,7 @@ RunSpec StudySimulator::spec(const Job& job) const {
   if (!step.input.empty()) dem::change_input(changed.emplace(study_), step.input, step.change);
   const dem::Study& study = changed ? *changed : study_;
   RunSpec spec = spec_of(study, experiment, grain(study.grain, job.inputs), heap_views_);
+  spec.simulator = simulator_;
   spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.inputs.stiffness);
   for (std::size_t k = 0; k < names_.size(); ++k) {
     // An experiment without a part has none of its coefficients.

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibrate/experiment/simulate_experiment.h"
@@ -50,6 +51,9 @@ class StudySimulator {
   /// Where runs are found and saved, with the final states of heaps; to be there as long as this.
   void store_in(const RunStore& folder) { folder_ = &folder; }
 
+  /// Which program makes the runs; ours unless told otherwise.
+  void use(std::shared_ptr<const Simulator> simulator) { simulator_ = std::move(simulator); }
+
   /// Runs it on one thread; may be called from several. An experiment in which nothing can be read,
   /// or that becomes unstable, is a run with a failure.
   /// @throws dem::Interrupted  `is_interrupted` became true.
@@ -69,6 +73,7 @@ class StudySimulator {
   std::vector<std::string> names_;
   int heap_views_;
   const RunStore* folder_ = nullptr;
+  std::shared_ptr<const Simulator> simulator_ = own_simulator();
 };
 
 }  // namespace repose::calibrate

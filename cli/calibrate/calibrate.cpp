@@ -99,7 +99,17 @@ std::optional<calibrate::StudyResult> with_messages(const Fit& fit) {
 ExitCode run_as_rank(const CalibrateArguments& arguments) {
   const calibrate::RankSession session;
   const CalibratePlan plan = plan_calibrate(arguments);
-  if (session.rank() == 0) print_lines(plan.errors);
+  const bool is_own = plan.record.study.engine.is_own();
+  if (session.rank() == 0) {
+    print_lines(plan.errors);
+    if (!is_own) {
+      print_line(
+          "[engine]: a program that starts processes of its own cannot be started by one of "
+          "several "
+          "of an MPI job. Fix: start repose as one process, without mpirun or srun.");
+    }
+  }
+  if (!is_own) return ExitCode::bad_input;
   if (!plan.errors.empty()) return ExitCode::bad_input;
   const calibrate::RunStore store(plan.folder);
   const calibrate::StudySimulator simulator = simulator_of(plan, store);

@@ -72,6 +72,12 @@ void check_method(const CalibrateArguments& arguments, CalibratePlan& plan) {
         "--method {}: must be joint or paper. Fix: leave it out for joint.", arguments.method));
   }
   if (!arguments.is_dry_run) return;
+  if (!plan.record.study.engine.is_own()) {
+    plan.errors.push_back(fmt::format(
+        "--dry-run: estimates runs of our own engine, not of [engine] program = \"{}\". Fix: leave "
+        "it out.",
+        plan.record.study.engine.program));
+  }
   if (!arguments.json_file.empty()) {
     plan.errors.emplace_back("--dry-run: gives no results for --json. Fix: leave one of them out.");
   }
@@ -104,7 +110,10 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
         {.no_rows = no_rows, .threads = plan.threads, .watch_films = shown_progress}, plan.notes);
   });
   if (!plan.errors.empty()) return plan;
-  attempt(plan.errors, [&] { complete_record(plan.record, plan.notes); });
+  attempt(plan.errors, [&] {
+    complete_record(plan.record, plan.notes);
+    choose_simulator(plan.record);
+  });
   return plan;
 }
 

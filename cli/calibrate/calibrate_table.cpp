@@ -404,6 +404,15 @@ void add_heap_definition(const calibrate::Provenance& provenance, Page& page) {
           : ""));
 }
 
+/// Another program than ours defines some things otherwise.
+void add_simulator(const calibrate::Provenance& provenance, Page& page) {
+  if (!provenance.model || !provenance.model->simulator) return;
+  const calibrate::SimulatorFacts& simulator = *provenance.model->simulator;
+  page.add_gap();
+  page.add(fmt::format("Simulated by {}. Other than in our own engine: {}", simulator.name,
+                       fmt::join(simulator.differences, " ")));
+}
+
 /// What the study itself marks as not measured.
 void add_assumed(const calibrate::Provenance& provenance, Page& page) {
   if (provenance.assumed.empty()) return;
@@ -430,9 +439,11 @@ std::string belongs_to_text(const calibrate::Provenance& provenance) {
   }
   const calibrate::ClumpFacts& clump = of.clump;
   return fmt::format(
-      "These coefficients are valid for: {}, damping {} ({}), rolling friction {} ({}); a clump of "
+      "These coefficients are valid for: {}{}, damping {} ({}), rolling friction {} ({}); a clump "
+      "of "
       "{} ({}, volume error {:+.2f} %){}; stiffness factor {}; budget {}: {}.",
-      of.contact_model, of.damping, of.damping_definition, of.rolling_model, of.rolling_definition,
+      of.simulator ? of.simulator->name + ", " : "", of.contact_model, of.damping,
+      of.damping_definition, of.rolling_model, of.rolling_definition,
       clump.spheres == 1 ? "1 sphere" : fmt::format("{} spheres", clump.spheres), clump.source,
       100 * clump.volume_error,
       clump.size_sd_percent
@@ -463,6 +474,7 @@ std::string joint_table(const calibrate::JointResult& joint,
   add_additions(joint, page);
   add_heap_definition(provenance, page);
   add_assumed(provenance, page);
+  add_simulator(provenance, page);
   page.add_gap();
   page.add(belongs_to_text(provenance));
   return page.text();

@@ -66,6 +66,11 @@ PlanOptions options_of(const PlanArguments& arguments) {
                                           calibrate::NoRows::allowed),
                       .offered = {}};
   std::vector<std::string>& errors = options.study.errors;
+  if (!options.study.record.study.engine.is_own()) {
+    errors.emplace_back(
+        "[engine]: plans are made by our own engine. Fix: --set 'engine.program=\"repose\"', which "
+        "says nearly the same of other programs.");
+  }
   if (const auto readings = read_whole_number({"--readings", arguments.readings, errors}, 1,
                                               kMaxReadings, "leave it out for 10")) {
     options.readings = *readings;

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "base/text.h"
+#include "calibrate/simulators/simulators.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
 #include "cli/simulate/simulate_output.h"
@@ -173,6 +174,12 @@ Command simulate_command() {
                   {"--seed", "N", "Seed of the first repeat", &given->seed},
                   {"--repeats", "N", "Number of repeats, each with its own seed", &given->repeats},
                   {"--threads", "N", "Threads (all cores)", &given->threads},
+                  {.name = "--engine",
+                   .value_name = "NAME",
+                   .help = "Program that simulates (repose)",
+                   .target = &given->engine,
+                   .words = calibrate::simulator_names()},
+                  {"--processes", "N", "Processes of a run of that program (1)", &given->processes},
                   {"--out", "FOLDER", "Output folder; makes the run resumable", &given->out_folder},
                   {"--trajectory-s", "DT", "Save a frame every DT s of simulated time",
                    &given->trajectory_s},

@@ -11,6 +11,7 @@
 #include "calibrate/bench/bench_readings.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/run_store.h"
+#include "calibrate/simulators/simulators.h"
 #include "calibrate/statistics/summary.h"
 #include "calibrate/study/study_problem.h"
 #include "cli/common/option_value.h"
@@ -138,6 +139,25 @@ std::optional<double> mean_without_air(SimulatePlan& plan) {
   }
 }
 
+/// Which program makes the runs.
+void choose_simulator(SimulatePlan& plan) {
+  try {
+    plan.spec.simulator = calibrate::simulator_for(plan.study);
+    for (const base::Fault& fault : plan.spec.simulator->refusals(plan.spec)) {
+      plan.errors.push_back(fault.text());
+    }
+  } catch (const base::InputError& error) {
+    add_faults(error, plan.errors);
+    return;
+  }
+  if (plan.trajectory_s && !plan.spec.simulator->can_resume()) {
+    plan.errors.push_back(fmt::format(
+        "--trajectory-s: {} makes no films. Fix: leave it out, or simulate with our own "
+        "engine.",
+        plan.spec.simulator->title()));
+  }
+}
+
 void build_bench(SimulatePlan& plan) {
   try {
     plan.grain = dem::build_grain(plan.study.grain);
@@ -156,6 +176,8 @@ void build_bench(SimulatePlan& plan) {
   if (!shape.empty()) plan.notes.push_back(shape);
   plan.spec = calibrate::spec_of(plan.study, plan.experiment, calibrate::NamedGrain(plan.grain),
                                  plan.views);
+  choose_simulator(plan);
+  if (!plan.errors.empty()) return;
   const std::vector<std::string> saved = notes_on_saved(plan);
   plan.notes.insert(plan.notes.end(), saved.begin(), saved.end());
 }
@@ -165,6 +187,13 @@ void build_bench(SimulatePlan& plan) {
 SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   SimulatePlan plan;
   plan.settings = arguments.settings;
+  // The study says the same in [engine]; an option is a setting laid over it.
+  if (!arguments.engine.empty()) {
+    plan.settings.push_back(fmt::format("engine.program=\"{}\"", arguments.engine));
+  }
+  if (!arguments.processes.empty()) {
+    plan.settings.push_back("engine.processes=" + arguments.processes);
+  }
   plan.out_folder = arguments.out_folder;
   plan.json_file = arguments.json_file;
   const dem::ExperimentEntry* experiment = dem::find_experiment(arguments.experiment);
@@ -176,7 +205,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   }
   bool is_read = false;
   try {
-    plan.study = dem::read_study(arguments.study, arguments.settings);
+    plan.study = dem::read_study(arguments.study, plan.settings);
     is_read = true;
     // A simulation needs no readings: they are compared with where there are some.
     const auto sheets = calibrate::read_sheets(plan.study, calibrate::NoRows::allowed);

@@ -24,6 +24,8 @@ struct SimulateArguments {
   std::string json_file;
   std::string trajectory_s;
   std::string views;
+  std::string engine;
+  std::string processes;
 };
 
 /// A `repose simulate` that can be carried out.

@@ -52,9 +52,16 @@ Json clump_json(const SimulatePlan& plan) {
           {"size_sd_percent", 100 * plan.spec.model.size_cv}};
 }
 
+/// Null: our own.
+Json engine_json(const calibrate::RunSpec& spec) {
+  if (spec.simulator->title().empty()) return nullptr;
+  return {{"name", spec.simulator->title()}, {"differences", spec.simulator->differences(spec)}};
+}
+
 /// All that a value belongs to but its seed and time step.
 void add_context(const SimulatePlan& plan, Json& json) {
   const dem::Model& model = plan.spec.model;
+  json["engine"] = engine_json(plan.spec);
   json["contact_model"] = dem::kContactModel;
   json["rolling_model"] = dem::name_of(model.rolling);
   json["rolling_definition"] = dem::rolling_definition(model.rolling);
@@ -333,10 +340,18 @@ std::string coefficients_text(const dem::PairCoefficients& pair) {
 /// Coefficients mean nothing without these.
 Table belongs_to_table(const SimulatePlan& plan) {
   const dem::Model& model = plan.spec.model;
+  const bool is_own = plan.spec.simulator->title().empty();
   const std::string step =
-      model.timestep_s ? fmt::format("{:g} s, as requested", *model.timestep_s)
-                       : fmt::format("{:g} of the longest accurate one", model.timestep_fraction);
+      !is_own            ? std::string("half of our longest accurate one")
+      : model.timestep_s ? fmt::format("{:g} s, as requested", *model.timestep_s)
+                         : fmt::format("{:g} of the longest accurate one", model.timestep_fraction);
   Table table({{}, {}});
+  if (const std::string engine = plan.spec.simulator->title(); !engine.empty()) {
+    table.add_row({"  engine", engine});
+    for (const std::string& difference : plan.spec.simulator->differences(plan.spec)) {
+      table.add_row({"  other than ours", difference});
+    }
+  }
   table.add_row({"  contact model", std::string(dem::kContactModel)});
   table.add_row({"  rolling model", fmt::format("{}: {}", dem::name_of(model.rolling),
                                                 dem::rolling_definition(model.rolling))});

@@ -161,7 +161,8 @@ class Batch {
         is_interrupted_(is_interrupted),
         progress_(plan.seeds.size()) {
     if (!plan.out_folder.empty()) folder_.emplace(plan.out_folder);
-    spec_.model.threads = threads_each(plan, folder_);
+    const int processes = spec_.simulator->processes(spec_.entry());
+    spec_.model.threads = std::min(plan.threads, std::max(processes, threads_each(plan, folder_)));
   }
 
   int runs_at_once() const { return plan_.threads / spec_.model.threads; }
@@ -204,7 +205,7 @@ class Batch {
     const std::uint64_t seed = plan_.seeds[index];
     const std::string place = place_of(plan_, seed).string();
     calibrate::SimulateOptions options;
-    options.saves_state = true;
+    options.saves_state = spec_.simulator->has_state(spec_.entry());
     if (folder_) options.folder = &*folder_;
     if (plan_.trajectory_s) options.trajectory = {place, *plan_.trajectory_s};
     options.report = [&](double fraction) {
@@ -222,6 +223,7 @@ class Batch {
   /// A run without a reading may have no state.
   RunFiles files_of(const calibrate::RunResult& run, const std::string& place) const {
     RunFiles files{.state = place + ".vtp", .overlay = {}};
+    if (!spec_.simulator->has_state(spec_.entry())) return {};
     if (!folder_->copy_state(spec_, run.seed, fs::path(files.state).filename().string())) {
       if (!run.failure.empty()) return {};
       throw base::InputError({.where = files.state,
@@ -281,7 +283,9 @@ std::vector<std::string> notes_on_saved(const SimulatePlan& plan) {
   const calibrate::RunStore folder(plan.out_folder);
   std::size_t finished = 0, begun = 0;
   for (const std::uint64_t seed : plan.seeds) {
-    if (folder.find(plan.spec, seed) && folder.has_state(plan.spec, seed)) {
+    const bool has_state =
+        !plan.spec.simulator->has_state(plan.spec.entry()) || folder.has_state(plan.spec, seed);
+    if (folder.find(plan.spec, seed) && has_state) {
       ++finished;
     } else if (folder.has_restart(plan.spec, seed)) {
       ++begun;

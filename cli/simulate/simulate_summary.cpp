@@ -219,6 +219,18 @@ void add_roll_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                    releases, releases == 1 ? "release" : "releases")});
 }
 
+/// Other programs delete what leaves their box, which is a little larger than the plate.
+void add_lost_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
+                      std::vector<RunWarning>& warnings) {
+  const double off_plate = run.readings.number("grains_off_plate").value_or(0);
+  if (plan.spec.simulator->title().empty() || off_plate == 0) return;
+  warnings.push_back(
+      {"grains_off_plate", run.seed,
+       fmt::format("{:g} of {:g} grains left the plate and are not part of the heap; they were "
+                   "deleted where they left the box. Fix: a larger plate, if the bench lost none.",
+                   off_plate, run.readings.at("grains"))});
+}
+
 /// What single repeats tell against their values.
 void add_run_warnings(const SimulatePlan& plan, const calibrate::RunResult& run,
                       std::vector<RunWarning>& warnings) {
@@ -235,6 +247,7 @@ void add_run_warnings(const SimulatePlan& plan, const calibrate::RunResult& run,
          fmt::format("{:g} of {} grains did not rebound; they count as 0 in the mean.", never_rose,
                      grains_per_run(plan.spec.protocol))});
   }
+  add_lost_warning(plan, run, warnings);
   add_grain_warning(plan, run, warnings);
   add_roll_warning(plan, run, warnings);
 }

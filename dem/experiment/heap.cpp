@@ -247,13 +247,8 @@ ExperimentRun filled(ExperimentRun filling, const Model& model, const HeapProtoc
   return run;
 }
 
-/// From the lift on, or from where it was interrupted after that.
-Repeat finish_heap(ExperimentRun run, const Model& model, std::uint64_t seed) {
-  if (run.progress().stage == HeapStage::lift) {
-    lift(run);
-    begin_settling(run, HeapStage::settle);
-  }
-  const bool is_at_rest = settle(run, kLiftTo);
+/// What lies on the plate in the end.
+Repeat heap_of(ExperimentRun run, const Model& model, bool is_at_rest, std::uint64_t seed) {
   const int grains = run.progress().grains;
   const int on_plate = count_present(run.simulation());
   if (on_plate == 0) {
@@ -277,7 +272,29 @@ Repeat finish_heap(ExperimentRun run, const Model& model, std::uint64_t seed) {
   return repeat;
 }
 
+/// From the lift on, or from where it was interrupted after that.
+Repeat finish_heap(ExperimentRun run, const Model& model, std::uint64_t seed) {
+  if (run.progress().stage == HeapStage::lift) {
+    lift(run);
+    begin_settling(run, HeapStage::settle);
+  }
+  const bool is_at_rest = settle(run, kLiftTo);
+  return heap_of(std::move(run), model, is_at_rest, seed);
+}
+
 }  // namespace
+
+Repeat heap_from(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
+                 const StandingHeap& heap) {
+  check(model, protocol);
+  const ProgressReport unasked;
+  const RunRecord unseen;
+  ExperimentRun run = empty_tube(model, protocol, {unasked, unseen});
+  run.simulation().remove_wall(kHeapTube);
+  for (const Grain& grain : heap.grains) run.simulation().add(grain);
+  run.progress().grains = heap.lifted;
+  return heap_of(std::move(run), model, heap.is_at_rest, seed);
+}
 
 Repeat run_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {

@@ -43,6 +43,18 @@ Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64
                    const Restart& from, const ProgressReport& report = {},
                    const RunRecord& record = {});
 
+/// Grains that another program's tube left on the plate.
+struct StandingHeap {
+  std::vector<Grain> grains;  ///< of the model's grain
+  int lifted = 0;             ///< how many there were when the lift began
+  bool is_at_rest = true;
+};
+
+/// What such a heap gives, as one of run_heap(). Times and steps are none of ours, and 0.
+/// @throws base::InputError, NoMeasurement  as run_heap().
+Repeat heap_from(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
+                 const StandingHeap& heap);
+
 /// What goes on in a heap experiment, in this order: the values of RunProgress::stage.
 struct HeapStage {
   enum : int { rain, settle_in_tube, lift, settle };

@@ -26,6 +26,11 @@ Incline incline_of(const RollProtocol& protocol) {
   return slope;
 }
 
+int most_releases(const ClumpShape& shape) {
+  constexpr int kMaxReleases = 10;
+  return shape.spheres.size() == 1 ? 1 : kMaxReleases;
+}
+
 Grain released(const ClumpShape& shape, const RollProtocol& protocol, Random& random) {
   const Incline slope = incline_of(protocol);
   const double turn = protocol.release_turn_deg * std::numbers::pi / 180;
@@ -44,7 +49,6 @@ Grain released(const ClumpShape& shape, const RollProtocol& protocol, Random& ra
 namespace {
 
 constexpr double kLongestRun_s = 60;
-constexpr int kMaxReleases = 10;
 
 void check(const Model& model, const RollProtocol& protocol) {
   base::Faults errors;
@@ -161,8 +165,6 @@ Rolled rolled(const Model& model, const RollProtocol& protocol, const Grain& gra
 Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report, const RunRecord& record) {
   check(model, protocol);
-  // A ball lies alike however it is put down.
-  const int most_releases = model.grain.spheres.size() == 1 ? 1 : kMaxReleases;
   const RunRecord unseen;
   Random random(seed);
   for (int releases = 1;; ++releases) {
@@ -170,7 +172,7 @@ Repeat run_roll(const Model& model, const RollProtocol& protocol, std::uint64_t 
     Rolled roll = rolled(model, protocol, grain, {report, unseen});
     const Simulation& simulation = roll.run.simulation();
     const double reached_m = on_flat_m(simulation);
-    if (reached_m == 0 && releases < most_releases) continue;
+    if (reached_m == 0 && releases < most_releases(model.grain)) continue;
     const Readings readings = {{"lateral_mm", 1e3 * simulation.grain(0).position.y()},
                                {"stopped_on_incline", reached_m == 0 ? 1 : 0},
                                {"releases", releases},

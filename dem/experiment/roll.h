@@ -37,6 +37,10 @@ struct Incline {
 
 Incline incline_of(const RollProtocol& protocol);
 
+/// How often a grain that stays on the incline is released again, the first time included. A ball
+/// lies alike however it is put down.
+int most_releases(const ClumpShape& shape);
+
 /// Lying on the incline, its long axis across the slope but for the protocol's turn to either side;
 /// which end points to the left, the turn and the pose about the long axis are random. The next
 /// call with the same numbers is the next release.

@@ -111,7 +111,14 @@ void check(const Model& model, const TiltProtocol& protocol) {
   errors.throw_if_any();
 }
 
-/// Slope at which a lying body tips over the lowest of its spheres farthest down the slope (+x).
+}  // namespace
+
+Model quiet(Model model) {
+  model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMaxRestitution);
+  model.grain_wall.restitution_exponent = 0;  // slow contacts would restore more than that
+  return model;
+}
+
 double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
   const double height = reach_towards(body, pose, -Vector::UnitZ());
   double foot = 0;
@@ -123,28 +130,18 @@ double tipping_deg(const ClumpShape& body, const Quaternion& pose) {
   return std::atan2(foot, height) / kDegree;
 }
 
-/// The same bench with contacts that do not rattle.
-Model quiet(Model model) {
-  model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMaxRestitution);
-  model.grain_wall.restitution_exponent = 0;  // slow contacts would restore more than that
-  return model;
+double most_slip_m(const ClumpShape& grain) {
+  return std::max(kMaxSlip * grain.reach_m(), kReportedSlip_m);
 }
 
-/// What is noted while the body slides.
-struct Slide {
-  std::vector<double> angle_deg;  ///< of the plate, within the slip that the onset is read from
-  std::vector<double> slip_m;
-  std::optional<double> reported_deg;  ///< at kReportedSlip_m
-};
+void Slide::add(double at_deg, double slipped_m, const ClumpShape& grain) {
+  if (slipped_m > kMinSlip * grain.reach_m() && slipped_m <= kMaxSlip * grain.reach_m()) {
+    angle_deg.push_back(at_deg);
+    slip_m.push_back(slipped_m);
+  }
+  if (slipped_m > kReportedSlip_m && !reported_deg) reported_deg = at_deg;
+}
 
-/// Angle at which the slip began.
-///
-/// Just past the onset theta0 (t0) the body's acceleration along the plate is
-/// g (sin theta - mu cos theta) = g sin(theta - theta0) / cos theta0 = c (t - t0) for a plate that
-/// turns steadily, so slip = c (t - t0)^3 / 6: its cube root is a line that leaves 0 at t0.
-/// With c = g rate / cos theta0 the line rises by cbrt(g / (6 rate^2 cos theta0)) per radian that
-/// the plate turns. A body that creeps from the start, or is shaken loose, slips otherwise.
-/// Proved by TiltFriction.IsTheAngleOfSliding in tests/dem/experiment_tilt_test.cpp.
 double onset_deg(const Slide& slide, double begin_deg, double rate_deg_s) {
   const auto count = static_cast<double>(slide.slip_m.size());
   double mean_angle = 0;
@@ -170,6 +167,8 @@ double onset_deg(const Slide& slide, double begin_deg, double rate_deg_s) {
                   "where the plate begins to turn. Fix: start_deg = 0, and a lower rate_deg_s.",
                   begin_deg));
 }
+
+namespace {
 
 /// Lays the body on the plate at its first angle and waits until it rests there.
 void settle_grain(ExperimentRun& run, double begin_deg) {
@@ -202,19 +201,13 @@ Slide slide_off(ExperimentRun& run, const ClumpShape& grain, double begin_deg, d
   const Quaternion lay = turn_on_plate(simulation, kPlate, 0);
   simulation.set_motions(kPlate,
                          {{.spin = rate_deg_s * kDegree * Vector::UnitY(), .start_s = begin_s}});
-  const double least = kMinSlip * grain.reach_m();
-  const double most = kMaxSlip * grain.reach_m();
   const std::int64_t steps = run.steps_of(look_interval_s(grain, rate_deg_s));
   Slide slide;
-  for (double slip = 0; slip <= std::max(most, kReportedSlip_m);) {
+  for (double slip = 0; slip <= most_slip_m(grain);) {
     run.advance(steps);
     const double angle = begin_deg + rate_deg_s * (simulation.time_s() - begin_s);
     slip = on_plate(simulation, kPlate, 0).x() - before_m;
-    if (slip > least && slip <= most) {
-      slide.angle_deg.push_back(angle);
-      slide.slip_m.push_back(slip);
-    }
-    if (slip > kReportedSlip_m && !slide.reported_deg) slide.reported_deg = angle;
+    slide.add(angle, slip, grain);
     if (turn_on_plate(simulation, kPlate, 0).angularDistance(lay) > kTipped_deg * kDegree) {
       throw NoMeasurement(
           fmt::format("tilt: the body tipped or rolled at {:.2f} degrees instead of "

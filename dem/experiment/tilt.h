@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "dem/engine/simulation.h"
 #include "dem/experiment/experiment.h"
@@ -34,6 +36,36 @@ struct TiltProtocol {
 
 Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
+
+/// The same bench with contacts that do not rattle: what run_tilt() simulates.
+Model quiet(Model model);
+
+/// Slope at which a body that lies so tips over the lowest of its spheres farthest down the slope
+/// (+x).
+double tipping_deg(const ClumpShape& body, const Quaternion& pose);
+
+/// What is noted while a body slides, here or in another program.
+struct Slide {
+  std::vector<double> angle_deg;  ///< of the plate, within the slip that the onset is read from
+  std::vector<double> slip_m;
+  std::optional<double> reported_deg;  ///< at half a millimetre
+
+  void add(double at_deg, double slipped_m, const ClumpShape& grain);
+};
+
+/// How far a body must slip until all is noted, m.
+double most_slip_m(const ClumpShape& grain);
+
+/// Angle at which the slip began.
+///
+/// Just past the onset theta0 (t0) the body's acceleration along the plate is
+/// g (sin theta - mu cos theta) = g sin(theta - theta0) / cos theta0 = c (t - t0) for a plate that
+/// turns steadily, so slip = c (t - t0)^3 / 6: its cube root is a line that leaves 0 at t0.
+/// With c = g rate / cos theta0 the line rises by cbrt(g / (6 rate^2 cos theta0)) per radian that
+/// the plate turns. A body that creeps from the start, or is shaken loose, slips otherwise.
+/// Proved by TiltFriction.IsTheAngleOfSliding in tests/dem/experiment_tilt_test.cpp.
+/// @throws NoMeasurement  it slips otherwise.
+double onset_deg(const Slide& slide, double begin_deg, double rate_deg_s);
 
 /// Where a plate stops to turn.
 inline constexpr double kSteepest_deg = 89;

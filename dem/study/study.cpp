@@ -134,6 +134,7 @@ void read_sections(const ConfigValue& config, Section root, const NamedFiles& fi
   read_experiments(experiments, files, study);
   read_simulation(root.section("simulation"), study);
   read_uncertainty(root.section("uncertainty"), study);
+  study.engine = read_engine(root.section("engine"));
   root.reject_unknown_keys();
 }
 

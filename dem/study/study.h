@@ -11,6 +11,7 @@
 
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_table.h"
+#include "dem/study/engine_choice.h"
 #include "dem/study/grain_source.h"
 
 namespace repose::dem {
@@ -140,6 +141,7 @@ struct Study {
   int replicates = 1;
   std::uint64_t seed = 1;
   std::optional<int> threads;  ///< when the file says how many
+  EngineChoice engine;
 
   /// How the experiment is done that has this kind of protocol.
   /// @throws std::out_of_range  the study does not describe it.

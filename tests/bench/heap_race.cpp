@@ -1,5 +1,6 @@
 #include "tests/bench/heap_race.h"
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
@@ -30,24 +31,19 @@ constexpr int kViews = 18;
 /// simulated with LIGGGHTS: .175 of the stable one.
 constexpr double kLongerSteps = 5;
 
-/// The same deck in longer steps; the fill as long as it was, lift and rest together as told.
-std::string in_longer_steps(const std::string& deck, double after_fill_s) {
+/// The same deck in longer steps, each of its runs as long as it was. It ends when its heap rests.
+std::string in_longer_steps(const std::string& deck) {
   std::istringstream lines(deck);
   std::string longer;
-  double step_s = 0;
-  int runs = 0;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string command, name, style;
     double number = 0;
     words >> command;
     if (command == "variable" && words >> name >> style >> number && name == "dt") {
-      step_s = number;
-      line = fmt::format("variable dt equal {:.17g}", kLongerSteps * step_s);
+      line = fmt::format("variable dt equal {:.17g}", kLongerSteps * number);
     } else if (command == "run" && words >> number) {
-      const double run_s = runs == 0 ? number * step_s : runs == 1 ? after_fill_s : 0;
-      line = fmt::format("run {:.0f}", run_s / (kLongerSteps * step_s));
-      ++runs;
+      line = fmt::format("run {:.0f}", std::ceil(number / kLongerSteps));
     }
     longer += line + '\n';
   }
@@ -66,12 +62,11 @@ std::vector<calibrate::FittedValue> values_of(const dem::Study& study) {
 }
 
 /// CPU time of LIGGGHTS's own heap.
-/// @param after_fill_s  of its lift and rest
-double time_theirs(const calibrate::StudyExport& decks, double after_fill_s) {
+double time_theirs(const calibrate::StudyExport& decks) {
   const testing::TemporaryFolder folder;
   for (const calibrate::ExportedFile& file : decks.files) {
     const bool is_heap = file.name == "heap.lig";
-    folder.write(file.name, is_heap ? in_longer_steps(file.text, after_fill_s) : file.text);
+    folder.write(file.name, is_heap ? in_longer_steps(file.text) : file.text);
   }
   const double theirs_s = testing::run_deck(folder, calibrate::liggghts_target(), "heap").cpu_s;
   if (!std::filesystem::exists(folder.path() / "heap.dump")) {
@@ -105,7 +100,7 @@ HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds) {
     times.views_s.push_back(cpu_s() - done);
     times.grains = static_cast<int>(ours.readings.at("grains"));
     if (testing::has_program_for(calibrate::liggghts_target())) {
-      times.theirs_s.push_back(time_theirs(decks, ours.readings.at("time_s")));
+      times.theirs_s.push_back(time_theirs(decks));
     }
   }
   return times;

@@ -126,6 +126,25 @@ TEST_F(Simulate, JsonHasTheContractsKeys) {
   EXPECT_THAT(drop["program"].get<std::string>(), HasSubstr("repose "));
 }
 
+TEST_F(Simulate, OurOwnEngineIsTheOneUnlessAnotherIsAskedFor) {
+  const json drop = timeless({"drop", "study.toml"});
+  EXPECT_TRUE(drop["engine"].is_null());
+  EXPECT_EQ(timeless({"drop", "study.toml", "--engine", "repose"})["value"], drop["value"]);
+}
+
+TEST_F(Simulate, AnEngineThatThereIsNotIsAnError) {
+  const Finished option = run({"drop", "study.toml", "--engine", "ligghts"});
+  EXPECT_EQ(option.exit_code, 2);
+  EXPECT_THAT(option.err, AllOf(HasSubstr("\"ligghts\" is not known"),
+                                HasSubstr("Fix: program = \"liggghts\".")));
+  const Finished key = run({"drop", "study.toml", "--set", "engine.program=\"ligghts\""});
+  EXPECT_EQ(key.exit_code, 2);
+  EXPECT_THAT(key.err, HasSubstr("engine.program = \"ligghts\" is not known"));
+  const Finished processes = run({"drop", "study.toml", "--processes", "0"});
+  EXPECT_EQ(processes.exit_code, 2);
+  EXPECT_THAT(processes.err, HasSubstr("engine.processes = 0"));
+}
+
 TEST_F(Simulate, ThreadsDoNotChangeTheResult) {
   for (const char* repeats : {"1", "3"}) {
     EXPECT_EQ(timeless({"roll", "study.toml", "--repeats", repeats, "--threads", "1"}),

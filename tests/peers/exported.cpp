@@ -1,11 +1,9 @@
 #include "tests/peers/exported.h"
 
 #include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "calibrate/simulators/liggghts_readings.h"
 #include "dem/experiment/drop.h"
 #include "dem/experiment/experiment.h"
 #include "dem/experiment/experiment_table.h"
@@ -36,41 +34,21 @@ std::string last_of(const std::string& text) {
   return text.substr(text.size() - std::min(text.size(), kShown));
 }
 
-/// The number after "reading: NAME ".
+/// The number after the last "reading: NAME ".
 double reading_in(const std::string& out, const std::string& name) {
   const std::string key = "\nreading: " + name + ' ';
-  const std::size_t place = out.find(key);
+  const std::size_t place = out.rfind(key);
   if (place == std::string::npos) throw std::runtime_error("no " + name + ": " + last_of(out));
   return std::stod(out.substr(place + key.size()));
-}
-
-/// Top of the first flight less the lowest height before it, from rows of step, height and speed.
-/// In flight the speed falls evenly; a grain that topples on the wall is no flight.
-double rise_in(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  double lowest = HUGE_VAL;
-  double speed_before = 0;
-  double fall_before = 0;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    double step = 0;
-    double height = 0;
-    double speed = 0;
-    if (!(words >> step >> height >> speed)) continue;
-    lowest = std::min(lowest, height);
-    const double fall = speed_before - speed;
-    const bool is_flying = std::abs(fall - fall_before) < .02 * fall;
-    if (speed_before > 0 && speed <= 0 && is_flying) return height - lowest;
-    speed_before = speed;
-    fall_before = fall;
-  }
-  throw std::runtime_error(file.filename().string() + ": the grain never rose");
 }
 
 double mean_rise_mm(const TemporaryFolder& folder, const std::string& deck, int grains) {
   double sum_m = 0;
   for (int k = 1; k <= grains; ++k) {
-    sum_m += rise_in(folder.path() / (deck + "_" + std::to_string(k) + ".txt"));
+    const std::string file = deck + "_" + std::to_string(k) + ".txt";
+    const auto bounce = calibrate::bounce_in(folder.path() / file);
+    if (!bounce) throw std::runtime_error(file + ": the grain never rose");
+    sum_m += bounce->rise_m;
   }
   return 1e3 * sum_m / grains;
 }
