@@ -81,7 +81,7 @@ void fields(Io& io, Held<Io, EngineFacts>& engine) {
   io("runs", engine.runs);
   io("failed", engine.failed);
   io("ended_by", engine.ended_by);
-  if (io.has("check_runs", engine.check_runs > 0)) {
+  if (io.has("check_runs", true)) {
     io("check_runs", engine.check_runs);
     io("check_failed", engine.check_failed);
   }

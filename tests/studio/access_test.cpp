@@ -29,8 +29,8 @@ TEST(Access, TakesItsOwnPageByTokenOrCookie) {
 
 TEST(Access, RefusesWhoDoesNotKnowTheToken) {
   const std::string with_more = std::string(kToken) + "0";
-  for (const std::string token : {std::string(), std::string("0"), with_more,
-                                  std::string("0123456789abcdef0123456789abcdeF")}) {
+  for (const std::string& token : {std::string(), std::string("0"), with_more,
+                                   std::string("0123456789abcdef0123456789abcdeF")}) {
     EXPECT_THAT(
         refusal({.host = "127.0.0.1:8080", .origin = {}, .query_token = token, .cookies = {}}),
         HasSubstr("token"));
