@@ -83,14 +83,14 @@ ExitCode run_studio(const StudioArguments& arguments) {
 }
 
 constexpr const char* kStudioNotes = R"(
-A page in your browser on which pictures, films and scans of heaps are looked at,
-corrected and summarised, with the command line that does the same beside each
-step. FOLDER holds them (the present folder if left out). Corrections are saved
-beside the pictures, as repose measure --save-hints does.
+A page in your browser on which pictures, films and scans of heaps are looked
+at, corrected and summarised, with the command line that does the same beside
+each step. FOLDER holds them (the present folder if left out). Corrections are
+saved beside the pictures, as repose measure --save-hints does.
 
 The page is for this machine alone: nothing of it can be reached from another,
-nor by other pages in the same browser, and it needs no network. The address that
-is printed holds a key: who has it may do all that the page can do.
+nor by other pages in the same browser, and it needs no network. The address
+that is printed holds a key: who has it may do all that the page can do.
 
 Examples:
   repose studio photos
@@ -103,7 +103,7 @@ Command studio_command() {
   const auto given = std::make_shared<StudioArguments>();
   return {
       .name = "studio",
-      .summary = "Look at heaps and correct them on a page in the browser",
+      .summary = "Look at heaps and correct them in the browser",
       .options = {{"folder", "[FOLDER]", "With your pictures, films and scans (.)", &given->folder},
                   {"--no-browser", "", "Only print the address", &given->opens_no_browser},
                   {"--port", "N", "1024 to 65535 (one that is free)", &given->port}},

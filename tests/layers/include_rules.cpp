@@ -15,8 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// From the lowest to the highest: each may use those before it, but vision and dem not each other.
-constexpr std::array<std::string_view, 7> kModules = {"base",      "vision", "dem", "render",
-                                                      "calibrate", "facade", "cli"};
+constexpr std::array<std::string_view, 8> kModules = {"base",      "vision", "dem",    "render",
+                                                      "calibrate", "facade", "studio", "cli"};
 
 /// Libraries that users of an installed header need not have.
 constexpr std::array<std::string_view, 12> kHiddenLibraries = {
