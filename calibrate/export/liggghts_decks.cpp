@@ -78,7 +78,10 @@ ExportedFile drop_file(const ExportFacts& facts, const DropDeck& deck) {
   fields.set("HEIGHT_MM", 1e3 * deck.height_m);
   fields.set("GRAINS", static_cast<int>(deck.poses.size()));
   fields.set("SPEED", facts.speed_m_s(deck.experiment));
-  fields.set("ROOM", deck.height_m + 10 * facts.grain().reach_m());
+  // It may roll off glued grains, and then no faster than it came.
+  const double farthest_m =
+      facts.speed_m_s(deck.experiment) * facts.longest_drop_s(deck.experiment);
+  fields.set("ROOM", farthest_m + 10 * facts.grain().reach_m());
   fields.set("TOP", deck.height_m + top + 10 * facts.grain().reach_m());
   fields.set("STEPS", steps(facts.longest_drop_s(deck.experiment), timestep));
   fields.set("EVERY", 5);
