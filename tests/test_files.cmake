@@ -19,7 +19,7 @@ endfunction()
 # Suites that run code which others run as well, often or for long, to see how nearly right its numbers
 # are: they have the label `statistics` too, and are left out where each run takes ten times as long.
 set(statistics "^(vision/(ComparePictures|Conditions/.*|FilmAngleAccuracy|HeapPicture|LensFitAccuracy|Likeness|\
-OtherPictures|Scenes/.*)|calibrate/(DrawDownFront|JointFit(OfTheBench)?|Narrowing|PositionAngle(/Cone)?|Propose|\
+OtherPictures|Scenes/.*)|calibrate/(DrawDownFront|IntervalLimit|JointFit(OfTheBench)?|Narrowing|PositionAngle(/Cone)?|Propose|\
 SimulatorVersion|StifferCoefficients|MovedCoefficients)|dem/(DrawDowns|FillAccuracy|FilledTubes|HeapOfManySizes|LongTimestep|\
 NeighbourList|RollOnGrains|RollTimestep|RoughDeadGrains|TiltOnGrains)|physics/Verify/Physics)$")
 # Suites that start, kill and restart whole programs, each of which other suites run as well: they have

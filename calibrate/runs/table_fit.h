@@ -37,12 +37,12 @@ struct FreshRuns {
 using FreshRunsAt = std::function<FreshRuns(const std::vector<double>& values, bool has_chance)>;
 
 /// Fits, and predicts what is held out from surfaces through the table's runs.
-/// @param engine  that made runs of the table; none: somebody did by hand
+/// @param made_by  the engine that made runs of the table; none: somebody did by hand
 /// @param fresh_runs_at  asked for runs that check the fit (verification.h), unless no parameters
 ///   give the readings; none: nobody makes any
 /// @throws base::InputError  too few rows have a reading.
 StudyResult fit_table(const TableStudy& study, const TableRuns& table,
-                      const std::optional<EngineFacts>& engine = {},
+                      const std::optional<EngineFacts>& made_by = {},
                       const FreshRunsAt& fresh_runs_at = {});
 
 /// What is calibrated: the options of `repose calibrate --runs`.

@@ -41,7 +41,7 @@ Problem problem_of(const std::vector<LinearReading>& readings) {
   }
   for (std::size_t k = 0; k < readings.size(); ++k) {
     const std::string name = "reading " + std::to_string(k);
-    Experiment experiment{.name = name, .is_stochastic = false};
+    Experiment experiment{.name = name, .parameters = {}, .is_stochastic = false};
     for (std::size_t j = 0; j < problem.parameters.size(); ++j) experiment.parameters.push_back(j);
     problem.experiments.push_back(experiment);
     problem.observables.push_back({.name = name,
@@ -49,7 +49,8 @@ Problem problem_of(const std::vector<LinearReading>& readings) {
                                    .unit = "mm",
                                    .mean = readings[k].mean,
                                    .sd = readings[k].sd,
-                                   .n = readings[k].n});
+                                   .n = readings[k].n,
+                                   .assumed_sd_fraction = {}});
   }
   return problem;
 }

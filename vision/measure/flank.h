@@ -56,7 +56,7 @@ struct Apron {
   double length = 0;          ///< from there to the foot
   bool is_high = false;       ///< it begins above a third of the height, and is no thin layer
   double angle_with_rad = 0;  ///< of the line if it counted in full
-  LineFit line_with;          ///< that line
+  LineFit line_with = {};     ///< that line
 };
 
 /// One side of the heap, fitted. Lengths in working pixels, along and above the ground line.
