@@ -44,19 +44,6 @@ void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
   if (softest < kSoft_pa) fields.add_section("SOFT");
 }
 
-std::string rolling_words(dem::RollingModel model) {
-  switch (model) {
-    case dem::RollingModel::none:
-      return "";
-    case dem::RollingModel::elastic_plastic:
-      return " rolling_friction epsd";
-    case dem::RollingModel::constant_torque:
-    case dem::RollingModel::relative_constant_torque:
-      break;
-  }
-  return " rolling_friction cdt";
-}
-
 /// A row for each type: of the grain its values with all types, of the walls that with the grain.
 /// What walls do to each other is never asked for.
 std::string pairs_text(const std::vector<double>& with_grain) {
@@ -72,8 +59,10 @@ std::string pairs_text(const std::vector<double>& with_grain) {
 }
 
 std::string viscous_text(std::size_t pairs) {
-  std::string text = ".3";
-  for (std::size_t k = 1; k < pairs; ++k) text += " .3";
+  std::string text;
+  for (std::size_t k = 0; k < pairs; ++k) {
+    text += fmt::format("{}{:g}", k == 0 ? "" : " ", kLiggghtsRollingDamping);
+  }
   return text;
 }
 
@@ -122,7 +111,7 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
     }
     fields.set(fmt::format("{}_PAIRS", field), pairs_text(with_grain));
   }
-  fields.set("ROLLING_MODEL", rolling_words(study.model.rolling));
+  fields.set("ROLLING_MODEL", liggghts_rolling_words(study.model.rolling));
   if (study.model.rolling == dem::RollingModel::elastic_plastic) {
     fields.add_section("VISCOUS").set("VISCOUS_PAIRS", viscous_text(types * types));
   }

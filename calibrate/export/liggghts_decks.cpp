@@ -21,6 +21,19 @@
 
 namespace repose::calibrate {
 
+std::string liggghts_rolling_words(dem::RollingModel model) {
+  switch (model) {
+    case dem::RollingModel::none:
+      return "";
+    case dem::RollingModel::elastic_plastic:
+      return " rolling_friction epsd";
+    case dem::RollingModel::constant_torque:
+    case dem::RollingModel::relative_constant_torque:
+      break;
+  }
+  return " rolling_friction cdt";
+}
+
 double density_kg_m3(const ExportFacts& facts, bool is_sphere) {
   return is_sphere ? facts.ball_density_kg_m3() : facts.study().model.grain_material.density_kg_m3;
 }

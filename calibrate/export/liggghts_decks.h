@@ -10,6 +10,12 @@
 
 namespace repose::calibrate {
 
+/// What follows a contact model, of rolling friction: " rolling_friction epsd".
+std::string liggghts_rolling_words(dem::RollingModel model);
+
+/// coefficientRollingViscousDamping of epsd, as our own elastic_plastic has it (dem/THEORY.md).
+inline constexpr double kLiggghtsRollingDamping = .3;
+
 /// The number of a part's material: the plate's, 2, where it has none of its own.
 int liggghts_type(const ExportFacts& facts, dem::WallPart part);
 

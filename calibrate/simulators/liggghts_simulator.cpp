@@ -11,6 +11,7 @@
 #include "calibrate/export/facts.h"
 #include "calibrate/export/target_entry.h"
 #include "calibrate/simulators/liggghts_result.h"
+#include "calibrate/simulators/liggghts_scene.h"
 #include "calibrate/simulators/program_simulator.h"
 #include "calibrate/simulators/simulators.h"
 #include "dem/contact/model_names.h"
@@ -25,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kProgram = "liggghts";
 /// Which decks made a run, and how they are read. To be raised whenever that changes what a run
 /// gives.
 constexpr int kDecks = 1;
@@ -75,7 +75,7 @@ class LiggghtsSimulator : public ProgramSimulator {
   }
 
   std::string identity(const RunSpec& spec) const override {
-    nlohmann::ordered_json json{{"program", kProgram}, {"version", version_}, {"decks", kDecks}};
+    nlohmann::ordered_json json{{"program", kLiggghts}, {"version", version_}, {"decks", kDecks}};
     // Where sums and random numbers are taken in another order, grains go other ways.
     if (processes(spec.entry()) > 1) json["processes"] = processes(spec.entry());
     return json.dump();
@@ -147,7 +147,7 @@ class LiggghtsSimulator : public ProgramSimulator {
     }
     // Line by line: what it printed last before it failed would be lost.
     words.insert(words.end(),
-                 {"stdbuf", "-oL", kProgram, "-in", dem::name_of(&spec.entry()) + ".lig", "-log",
+                 {"stdbuf", "-oL", kLiggghts, "-in", dem::name_of(&spec.entry()) + ".lig", "-log",
                   "none", "-var", "seed", std::to_string(prime_of(seed))});
     return {.words = std::move(words), .folder = {}, .output = {}};
   }
@@ -245,15 +245,8 @@ dem::Repeat LiggghtsSimulator::read_back(const RunSpec& spec, std::uint64_t seed
 }  // namespace
 
 std::shared_ptr<const Simulator> liggghts_simulator(const dem::EngineChoice& choice) {
-  const auto printed = printed_by({kProgram, "-in", "/dev/null", "-log", "none"});
-  const std::string key = "Version ";
-  const std::size_t begin = printed ? printed->find(key) : std::string::npos;
   base::Faults faults;
-  faults.require(begin != std::string::npos,
-                 {.subject = "engine.program",
-                  .value = "= \"liggghts\" is not installed, or does not start",
-                  .rule = "the command liggghts starts LIGGGHTS-PUBLIC 3.8",
-                  .fix = "apt-get install liggghts, or put its folder into PATH."});
+  std::string version = installed_liggghts(faults);
   if (choice.processes > 1) {
     const bool is_there = printed_by({choice.launcher, "--version"}).has_value();
     faults.require(
@@ -264,9 +257,7 @@ std::shared_ptr<const Simulator> liggghts_simulator(const dem::EngineChoice& cho
          .fix = "apt-get install openmpi-bin, or processes = 1."});
   }
   faults.throw_if_any();
-  const std::size_t end = printed->find(',', begin);
-  return std::make_shared<const LiggghtsSimulator>(
-      choice, printed->substr(begin + key.size(), end - begin - key.size()));
+  return std::make_shared<const LiggghtsSimulator>(choice, std::move(version));
 }
 
 }  // namespace repose::calibrate

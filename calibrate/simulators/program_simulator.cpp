@@ -22,48 +22,15 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kBetweenLooks{10};
 constexpr std::size_t kShownLines = 10;
 
-/// The folder of one run, empty at first. It goes away with the object unless it is kept.
-class WorkFolder {
- public:
-  explicit WorkFolder(const fs::path& asked) : path_(asked.empty() ? temporary() : asked) {
-    if (base::is_in_use(path_ / ProgramSimulator::kOutputFile)) {
-      base::refuse(path_, "the program of an earlier run is still running there",
-                   "wait until it has ended, or end it.");
-    }
-    std::error_code error;
-    fs::remove_all(path_, error);
-    if (!error) fs::create_directories(path_, error);
-    if (error) {
-      base::refuse(path_, fmt::format("cannot be written ({})", error.message()),
-                   "choose another folder, or free some space there.");
-    }
+fs::path temporary_folder() {
+  std::string name = (fs::temp_directory_path() / "repose-run-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    base::refuse(name,
+                 fmt::format("cannot be created ({})", std::generic_category().message(errno)),
+                 "set TMPDIR to a folder that can be written.");
   }
-  ~WorkFolder() {
-    std::error_code ignored;
-    if (!is_kept_) fs::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  WorkFolder(WorkFolder&&) = delete;
-  WorkFolder& operator=(WorkFolder&&) = delete;
-
-  const fs::path& path() const { return path_; }
-  void keep() { is_kept_ = true; }
-
- private:
-  static fs::path temporary() {
-    std::string name = (fs::temp_directory_path() / "repose-run-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      base::refuse(name,
-                   fmt::format("cannot be created ({})", std::generic_category().message(errno)),
-                   "set TMPDIR to a folder that can be written.");
-    }
-    return name;
-  }
-
-  fs::path path_;
-  bool is_kept_ = false;
-};
+  return name;
+}
 
 [[noreturn]] void fail(const fs::path& folder, const std::string& program, const std::string& why) {
   const fs::path output = folder / ProgramSimulator::kOutputFile;
@@ -77,40 +44,49 @@ class WorkFolder {
        .fix = "start it again in that folder to look into it."});
 }
 
-}  // namespace
-
-base::ProcessEnd ProgramSimulator::wait_for(base::ChildProcess& program, const RunCall& call,
-                                            const fs::path& folder) const {
+base::ProcessEnd wait_for(base::ChildProcess& program, const ProgramWatch& watch,
+                          const fs::path& folder) {
   const Clock::time_point begun = Clock::now();
   for (;;) {
     if (const auto end = program.end()) return *end;
-    // How far it is nobody knows.
-    if (call.goes_on && !call.goes_on(0)) throw dem::Interrupted("interrupted");
+    if (watch.goes_on && !watch.goes_on()) throw dem::Interrupted("interrupted");
     const std::chrono::duration<double> spent = Clock::now() - begun;
-    if (timeout_s_ && spent.count() > *timeout_s_) {
-      fail(folder, title(),
-           fmt::format("took more than timeout_s = {:g} s, and was ended", *timeout_s_));
+    if (watch.timeout_s && spent.count() > *watch.timeout_s) {
+      fail(folder, watch.title,
+           fmt::format("took more than timeout_s = {:g} s, and was ended", *watch.timeout_s));
     }
     std::this_thread::sleep_for(kBetweenLooks);
   }
 }
 
-dem::Repeat ProgramSimulator::run(const RunCall& call) const {
-  base::Faults faults;
-  faults.add_all(refusals(call.spec));
-  faults.throw_if_any();
-  WorkFolder folder(call.folder);
-  prepare(call.spec, call.seed, folder.path());
-  base::ProcessStart program = start(call.spec, call.seed, folder.path());
+}  // namespace
+
+WorkFolder::WorkFolder(const fs::path& asked) : path_(asked.empty() ? temporary_folder() : asked) {
+  if (base::is_in_use(path_ / ProgramSimulator::kOutputFile)) {
+    base::refuse(path_, "the program of an earlier run is still running there",
+                 "wait until it has ended, or end it.");
+  }
+  std::error_code error;
+  fs::remove_all(path_, error);
+  if (!error) fs::create_directories(path_, error);
+  if (error) {
+    base::refuse(path_, fmt::format("cannot be written ({})", error.message()),
+                 "choose another folder, or free some space there.");
+  }
+}
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  if (!is_kept_) fs::remove_all(path_, ignored);
+}
+
+void run_to_end(base::ProcessStart program, WorkFolder& folder, const ProgramWatch& watch) {
   program.folder = folder.path();
-  program.output = folder.path() / kOutputFile;
+  program.output = folder.path() / ProgramSimulator::kOutputFile;
   try {
     base::ChildProcess process(program);
-    const base::ProcessEnd end = wait_for(process, call, folder.path());
-    if (!end.is_good()) fail(folder.path(), title(), "failed: " + end.text());
-    dem::Repeat repeat = read_back(call.spec, call.seed, folder.path());
-    repeat.seed = call.seed;
-    return repeat;
+    const base::ProcessEnd end = wait_for(process, watch, folder.path());
+    if (!end.is_good()) fail(folder.path(), watch.title, "failed: " + end.text());
   } catch (const base::InputError&) {
     folder.keep();
     throw;
@@ -121,10 +97,31 @@ dem::Repeat ProgramSimulator::run(const RunCall& call) const {
   }
 }
 
+dem::Repeat ProgramSimulator::run(const RunCall& call) const {
+  base::Faults faults;
+  faults.add_all(refusals(call.spec));
+  faults.throw_if_any();
+  WorkFolder folder(call.folder);
+  prepare(call.spec, call.seed, folder.path());
+  run_to_end(start(call.spec, call.seed, folder.path()), folder,
+             {.title = title(),
+              .timeout_s = timeout_s_,
+              // How far it is nobody knows.
+              .goes_on = [&call] { return !call.goes_on || call.goes_on(0); }});
+  try {
+    dem::Repeat repeat = read_back(call.spec, call.seed, folder.path());
+    repeat.seed = call.seed;
+    return repeat;
+  } catch (const base::InputError&) {
+    folder.keep();
+    throw;
+  }
+}
+
 std::optional<std::string> printed_by(const std::vector<std::string>& words) {
   constexpr std::chrono::seconds kLongest{60};
   const Clock::time_point begun = Clock::now();
-  const WorkFolder folder{{}};
+  const WorkFolder folder;
   const fs::path output = folder.path() / ProgramSimulator::kOutputFile;
   try {
     base::ChildProcess program({.words = words, .folder = folder.path(), .output = output});

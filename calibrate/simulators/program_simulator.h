@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/child_process.h"
 #include "calibrate/experiment/run_spec.h"
@@ -38,11 +40,44 @@ class ProgramSimulator : public Simulator {
                                 const std::filesystem::path& folder) const = 0;
 
  private:
-  base::ProcessEnd wait_for(base::ChildProcess& program, const RunCall& call,
-                            const std::filesystem::path& folder) const;
-
   std::optional<double> timeout_s_;
 };
+
+/// The folder of one run of a program, empty at first. It goes away with the object unless it is
+/// kept.
+class WorkFolder {
+ public:
+  /// @param asked  where it is to be; empty: a temporary one
+  /// @throws base::InputError  it cannot be made, or a program is still running there.
+  explicit WorkFolder(const std::filesystem::path& asked = {});
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  WorkFolder(WorkFolder&&) = delete;
+  WorkFolder& operator=(WorkFolder&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void keep() { is_kept_ = true; }
+
+ private:
+  std::filesystem::path path_;
+  bool is_kept_ = false;
+};
+
+/// What is known of a program that runs.
+struct ProgramWatch {
+  std::string title;  ///< for people
+  std::optional<double> timeout_s;
+  std::function<bool()> goes_on = {};  ///< false interrupts it
+};
+
+/// Starts a program in a folder and waits for its end. It prints to
+/// ProgramSimulator::kOutputFile there. The folder is kept where it failed.
+/// @throws dem::Interrupted
+/// @throws base::InputError  it cannot be started, failed, or took too long: with the end of what
+/// it
+///   printed.
+void run_to_end(base::ProcessStart program, WorkFolder& folder, const ProgramWatch& watch);
 
 /// What an executable of that name, looked for in PATH, prints when it is started so; none where
 /// there is none, or it fails, or takes more than a minute.

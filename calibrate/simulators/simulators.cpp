@@ -11,6 +11,8 @@
 #include "base/input_error.h"
 #include "base/text.h"
 #include "calibrate/experiment/run_spec.h"
+#include "calibrate/simulators/case_peers.h"
+#include "calibrate/simulators/liggghts_scene.h"
 #include "calibrate/study/study_simulator.h"
 
 namespace repose::calibrate {
@@ -19,9 +21,10 @@ namespace {
 struct SimulatorEntry {
   const char* name;
   std::shared_ptr<const Simulator> (*make)(const dem::EngineChoice& choice);
+  std::unique_ptr<const dem::CasePeer> (*cases)();
 };
 
-const std::array kOthers{SimulatorEntry{"liggghts", liggghts_simulator}};
+const std::array kOthers{SimulatorEntry{kLiggghts, liggghts_simulator, liggghts_cases}};
 
 /// With what is sought at one end of its bounds.
 RunSpec spec_at_bounds(const dem::Study& study, const dem::ClumpShape& grain,
@@ -68,6 +71,14 @@ std::shared_ptr<const Simulator> simulator_for(const dem::Study& study) {
        .value = fmt::format("= \"{}\" is not known", study.engine.program),
        .rule = fmt::format("{}", fmt::join(simulator_names(), " or ")),
        .fix = fmt::format("program = \"{}\".", close.empty() ? dem::kOwnEngine : close)});
+}
+
+std::unique_ptr<const dem::CasePeer> case_peer_of(const std::string& program) {
+  const auto* entry = std::ranges::find(kOthers, program, &SimulatorEntry::name);
+  if (entry != kOthers.end()) return entry->cases();
+  throw base::InputError({.where = "--engine " + program,
+                          .value = "is no program that can run these cases beside repose",
+                          .fix = fmt::format("--engine {}.", kOthers.front().name)});
 }
 
 std::vector<std::string> check_for_fit(const Simulator& simulator, const dem::Study& study,

@@ -10,6 +10,7 @@ namespace repose::cli {
 /// What `repose verify` is asked to do, as typed.
 struct VerifyArguments {
   std::string json_file;
+  std::string engine;  ///< another program beside ours; empty: none
 };
 
 /// Carries out `repose verify`: internal_error when some number is out of tolerance.

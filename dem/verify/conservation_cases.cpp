@@ -30,22 +30,20 @@ struct Impact {
   Vector velocity(double speed) const {
     return {speed * std::sin(angle), 0, -speed * std::cos(angle)};
   }
-  /// `accepted_speed`: what the time step is chosen for.
-  Simulation start(Trial& trial, SimulationSetup setup, double speed, double accepted_speed) const {
-    if (!on_ball) setup.walls = {tilted_plane(0)};
-    Simulation simulation = trial.simulate(std::move(setup), accepted_speed);
+  Meeting meeting(double speed, double timestep_s) const {
     Grain ball;
     ball.velocity = velocity(speed);
-    ball.position.z() = kRadius - late * simulation.setup().timestep_s * ball.velocity.z();
-    simulation.add(ball);
-    if (on_ball) {
-      Grain struck;
-      struck.position.z() = -kRadius;
-      simulation.add(struck);
-    }
-    return simulation;
+    ball.position.z() = kRadius - late * timestep_s * ball.velocity.z();
+    if (!on_ball) return {ball};
+    return {ball, {.position = {0, 0, -kRadius}}};
   }
 };
+
+/// Twice the kinetic energy of a ball by its mass.
+double energy2_of(const Grain& ball) {
+  return ball.velocity.squaredNorm() +
+         .4 * Impact::kRadius * Impact::kRadius * ball.spin.squaredNorm();
+}
 
 /// Kinetic energy that appears in an elastic impact at any angle, relative; friction only takes.
 /// A spring of the total slip, S_t(now) x, makes 3 % at nu 0 and mu 3.
@@ -55,16 +53,21 @@ void energy_of_oblique_impacts(Trial& trial) {
     for (const auto& [poisson, friction] : {std::pair{0.0, .3}, {0.0, 3.0}, {.3, .3}, {.3, 1.0}}) {
       Material material = kSteel;
       material.poisson_ratio = poisson;
-      const SimulationSetup setup = scene_of(sphere_shape(Impact::kRadius), material, material,
-                                             {.sliding_friction = friction});
-      double most = 0;
+      SimulationSetup setup = scene_of(sphere_shape(Impact::kRadius), material, material,
+                                       {.sliding_friction = friction});
+      if (!on_ball) setup.walls = {tilted_plane(0)};
+      std::vector<Meeting> meetings;
       for (int k = 0; k < 90 + kPhases; ++k) {
         const int angle_deg = std::max(0, k - kPhases);  // 0: at every phase
         const Impact impact{on_ball, angle_deg * kDegree, k % kPhases / double{kPhases}};
-        Simulation simulation = impact.start(trial, setup, Impact::kSpeed, Impact::kSpeed);
-        collide(simulation, Vector::UnitZ(), Impact::kRadius);
-        const double start = .5 * simulation.mass_kg(0) * Impact::kSpeed * Impact::kSpeed;
-        most = std::max(most, simulation.energies().kinetic_j / start - 1);
+        meetings.push_back(impact.meeting(Impact::kSpeed, trial.timestep_s(setup, Impact::kSpeed)));
+      }
+      double most = 0;
+      for (const Collision& hit :
+           trial.collide_each(setup, meetings, Impact::kSpeed, Impact::kRadius)) {
+        // Of a ball's mass; a wall has nothing.
+        const double energy2 = energy2_of(hit.after) + (on_ball ? energy2_of(hit.struck) : 0);
+        most = std::max(most, energy2 / (Impact::kSpeed * Impact::kSpeed) - 1);
       }
       trial.expect(fmt::format("energy made on a {}, nu {:.1f}, mu {:.1f}, J/J",
                                on_ball ? "ball" : "wall", poisson, friction),
@@ -79,14 +82,18 @@ void restitution_at_any_step(Trial& trial) {
     double worst = 0;
     double pull = 0;
     for (const double e : {.05, .1, .2, .3, .5, .7, .9, 1.0}) {
-      const SimulationSetup setup =
+      SimulationSetup setup =
           scene_of(sphere_shape(Impact::kRadius), kSteel, kSteel, {.restitution = e});
-      for (const double speed : {2.0, .05}) {
+      if (!on_ball) setup.walls = {tilted_plane(0)};
+      const double timestep_s = trial.timestep_s(setup, Impact::kSpeed);
+      for (const double speed : {Impact::kSpeed, .05}) {
+        std::vector<Meeting> meetings;
         for (const double late : {0.0, .2, .4, .6, .8}) {
-          Simulation simulation =
-              Impact{on_ball, 0, late}.start(trial, setup, speed, Impact::kSpeed);
-          const Collision hit = collide(simulation, Vector::UnitZ(), Impact::kRadius);
-          const double other = on_ball ? simulation.grain(1).velocity.z() : 0;
+          meetings.push_back(Impact{on_ball, 0, late}.meeting(speed, timestep_s));
+        }
+        for (const Collision& hit :
+             trial.collide_each(setup, meetings, Impact::kSpeed, Impact::kRadius)) {
+          const double other = on_ball ? hit.struck.velocity.z() : 0;
           const double out = (hit.after.velocity.z() - other) / speed;
           worst = std::max(worst, std::abs(out - e));
           pull = std::max(pull, hit.pull_n);
@@ -196,9 +203,9 @@ void ball_on_fixed_ball(Trial& trial) {
     setup.walls = {bed_of({Vector::Zero()})};
     const double mass = setup.contacts.material(0).density_kg_m3 * setup.kinds[0].shape.volume_m3;
     const double young = setup.contacts.law(0, 1).reduced_young_pa;
-    Simulation simulation = trial.simulate(setup, kSpeed);
-    simulation.add({.position = {0, 0, 2.0001 * kBallRadius_m}, .velocity = {0, 0, -kSpeed}});
-    const Collision collision = collide(simulation, Vector::UnitZ(), kBallRadius_m);
+    const std::vector<Grain> balls = {
+        {.position = {0, 0, 2.0001 * kBallRadius_m}, .velocity = {0, 0, -kSpeed}}};
+    const Collision collision = trial.collide(setup, balls, kSpeed, kBallRadius_m);
     trial.expect(fmt::format("restitution, {:.1f} put in", restitution), restitution,
                  collision.after.velocity.z() / kSpeed, .005);
     if (restitution < 1) continue;
@@ -290,25 +297,22 @@ ClumpShape block_of_rings(double step_m) {
   return shape;
 }
 
-Simulation clump_scene(Trial& trial, const ClumpShape& shape, double restitution,
-                       DampingModel damping, bool on_block) {
+Collision landing_of(Trial& trial, const ClumpShape& shape, double restitution,
+                     DampingModel damping, bool on_block) {
   const Material wood{
       .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e8, .poisson_ratio = .3};
   SimulationSetup setup =
       scene_of(shape, wood, wood, {.restitution = restitution}, RollingModel::none, damping);
   if (!on_block) setup.walls = {tilted_plane(0)};
-  Simulation simulation = trial.simulate(std::move(setup), kLandingSpeed);
-  Grain falling;
-  falling.position.z() = kHalfHeight;
-  falling.velocity.z() = -kLandingSpeed;
-  simulation.add(falling);
+  std::vector<Grain> blocks = {
+      {.position = {0, 0, kHalfHeight}, .velocity = {0, 0, -kLandingSpeed}}};
   if (on_block) {
     Grain struck;
     struck.position.z() = -kHalfHeight;
     struck.orientation = Eigen::AngleAxisd(std::acos(-1.0), Vector::UnitX());
-    simulation.add(struck);
+    blocks.push_back(struck);
   }
-  return simulation;
+  return trial.collide(std::move(setup), blocks, kLandingSpeed, kCornerRadius);
 }
 
 /// What a clump that lands flat keeps of its speed, against what it should.
@@ -317,9 +321,8 @@ void expect_restitution(Trial& trial, const ClumpShape& shape, DampingModel damp
   double pull = 0;
   const std::string where = on_block ? "block" : "wall";
   for (const double e : {.1, .4, .8}) {
-    Simulation simulation = clump_scene(trial, shape, e, damping, on_block);
-    const Collision hit = collide(simulation, Vector::UnitZ(), kCornerRadius);
-    const double other = on_block ? simulation.grain(1).velocity.z() : 0;
+    const Collision hit = landing_of(trial, shape, e, damping, on_block);
+    const double other = on_block ? hit.struck.velocity.z() : 0;
     trial.expect(fmt::format("restitution on a {}, set to {:.2f}", where, e), restitution_for(e),
                  (hit.after.velocity.z() - other) / kLandingSpeed, kClumpTolerance);
     pull = std::max(pull, hit.pull_n);

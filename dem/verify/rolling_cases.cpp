@@ -12,40 +12,55 @@ namespace repose::dem {
 namespace {
 
 /// A rolling ball with resistance mu_r on a plane, let go with some speed down the slope.
-Simulation rolling_ball(Trial& trial, RollingModel model, double rolling_friction, double tilt,
-                        double speed) {
-  SimulationSetup setup = ball_scene(
-      {.restitution = .5, .sliding_friction = 1, .rolling_friction = rolling_friction}, model);
-  setup.walls = {tilted_plane(tilt)};
-  setup.gravity = {0, 0, -kStandardGravity_m_s2};
-  Simulation simulation = trial.simulate(setup, .1);
-  Grain ball = resting_sphere(setup, tilt);
-  ball.velocity = speed * downhill(tilt);
-  ball.spin = {0, speed / ball.position.norm(), 0};
-  simulation.add(ball);
-  return simulation;
+struct RollingBall {
+  RollingModel model = RollingModel::none;
+  double rolling_friction = 0;
+  double tilt = 0;
+  double speed = 0;
+
+  Path path(Trial& trial, double duration_s, int every_steps = 1) const {
+    SimulationSetup setup = ball_scene(
+        {.restitution = .5, .sliding_friction = 1, .rolling_friction = rolling_friction}, model);
+    setup.walls = {tilted_plane(tilt)};
+    setup.gravity = {0, 0, -kStandardGravity_m_s2};
+    Grain ball = resting_sphere(setup, tilt);
+    ball.velocity = speed * downhill(tilt);
+    ball.spin = {0, speed / ball.position.norm(), 0};
+    return trial.follow(setup, {ball}, .1, duration_s, every_steps);
+  }
+
+  /// By rigid body mechanics; what it slows down by is negative.
+  double acceleration() const {
+    return 5.0 / 7 * kStandardGravity_m_s2 * (std::sin(tilt) - rolling_friction * std::cos(tilt));
+  }
+};
+
+double speed_of(const PathPoint& point, double tilt) {
+  return point.grain.velocity.dot(downhill(tilt));
 }
 
-double speed_of(const Simulation& simulation, double tilt) {
-  return simulation.grain(0).velocity.dot(downhill(tilt));
+/// The first point from a time on; the last one if there is none.
+const PathPoint& point_at(const Path& path, double time_s) {
+  const auto found = std::find_if(path.begin(), path.end(), [time_s](const PathPoint& point) {
+    return point.time_s >= time_s;
+  });
+  return found == path.end() ? path.back() : *found;
 }
 
 /// Mean acceleration between two times.
-double acceleration(Simulation& simulation, double tilt, double from_s, double to_s) {
-  while (simulation.time_s() < from_s) simulation.advance(1);
-  const double speed = speed_of(simulation, tilt);
-  const double start = simulation.time_s();
-  while (simulation.time_s() < to_s) simulation.advance(1);
-  return (speed_of(simulation, tilt) - speed) / (simulation.time_s() - start);
+double acceleration(const Path& path, double tilt, double from_s, double to_s) {
+  const PathPoint& from = point_at(path, from_s);
+  const PathPoint& to = point_at(path, to_s);
+  return (speed_of(to, tilt) - speed_of(from, tilt)) / (to.time_s - from.time_s);
 }
 
 /// On a plane all models brake by mu_r F r: 5/7 mu_r g.
 void decays_on_plane(Trial& trial, RollingModel model) {
   for (const double friction : {.01, .05}) {
-    Simulation simulation = rolling_ball(trial, model, friction, 0, .2);
-    const double expected = 5.0 / 7 * friction * kStandardGravity_m_s2;
+    const RollingBall ball{.model = model, .rolling_friction = friction, .speed = .2};
+    const double expected = -ball.acceleration();
     trial.expect(fmt::format("deceleration at mu_r {:.2f}, m/s2", friction), expected,
-                 -acceleration(simulation, 0, .1, .3), .005 * expected);
+                 -acceleration(ball.path(trial, .3), 0, .1, .3), .005 * expected);
   }
 }
 
@@ -60,17 +75,24 @@ void incline_then_flat(Trial& trial, RollingModel model) {
   // energy in the moment in which the spring winds up: .6 %.
   const double tolerance = model == RollingModel::elastic_plastic ? .01 : .002;
   for (const double friction : {.01, .02, .04, .11}) {
-    Simulation incline = rolling_ball(trial, model, friction, kTilt, 0);
-    const Vector start = incline.grain(0).position;
-    const auto run_length = [&] { return (incline.grain(0).position - start).norm(); };
-    while (run_length() < kLength) incline.advance(1);
+    const RollingBall incline{.model = model, .rolling_friction = friction, .tilt = kTilt};
+    const Path down = incline.path(trial, 1.1 * std::sqrt(2 * kLength / incline.acceleration()));
+    const auto run_length = [&down](const PathPoint& point) {
+      return (point.grain.position - down.front().grain.position).norm();
+    };
+    const auto at_foot = std::find_if(down.begin(), down.end() - 1, [&](const PathPoint& point) {
+      return run_length(point) >= kLength;
+    });
     const double speed =  // at the foot; the last step went past it
-        std::sqrt(incline.grain(0).velocity.squaredNorm() * kLength / run_length());
-    Simulation flat = rolling_ball(trial, model, friction, 0, speed);
-    while (speed_of(flat, 0) > 1e-3 * speed) flat.advance(10);
+        std::sqrt(at_foot->grain.velocity.squaredNorm() * kLength / run_length(*at_foot));
+    const RollingBall flat{.model = model, .rolling_friction = friction, .speed = speed};
+    const Path out = flat.path(trial, -1.1 * speed / flat.acceleration(), 100);
+    const auto at_rest = std::find_if(out.begin(), out.end() - 1, [&](const PathPoint& point) {
+      return speed_of(point, 0) <= 1e-3 * speed;
+    });
     const double expected = kLength * (std::sin(kTilt) - friction * std::cos(kTilt)) / friction;
     trial.expect(fmt::format("run on the flat at mu_r {:.2f}, m", friction), expected,
-                 flat.grain(0).position.x(), tolerance * expected);
+                 at_rest->grain.position.x(), tolerance * expected);
   }
 }
 
@@ -90,20 +112,23 @@ void rolls_round_foot(Trial& trial, RollingModel model) {
         {.restitution = .05, .sliding_friction = 1, .rolling_friction = friction}, model);
     setup.walls = {tilted_plane(kTilt), tilted_plane(0)};
     setup.gravity = {0, 0, -kStandardGravity_m_s2};
-    Simulation simulation = trial.simulate(setup, 1);
     Grain ball = resting_sphere(setup, kTilt);
     ball.position -= kLength * downhill(kTilt);
-    simulation.add(ball);
-    do {
-      simulation.advance(10);
-    } while (simulation.grain(0).position.x() < 0 || speed_of(simulation, 0) > 1e-3);
+    const double down =
+        RollingBall{.model = model, .rolling_friction = friction, .tilt = kTilt}.acceleration();
+    const double out = -RollingBall{.model = model, .rolling_friction = friction}.acceleration();
+    const double fastest = std::sqrt(2 * kLength * down);
+    const Path path = trial.follow(setup, {ball}, 1, 1.1 * fastest * (1 / down + 1 / out), 10);
+    const auto at_rest = std::find_if(path.begin(), path.end() - 1, [](const PathPoint& point) {
+      return point.grain.position.x() >= 0 && speed_of(point, 0) <= 1e-3;
+    });
     const double foot = kBallRadius_m * std::tan(kTilt / 2);
     const double kept = (5 * std::cos(kTilt) + 2) / 7 - 5. / 7 * friction * std::sin(kTilt);
     const double expected =
         kept * kept * (kLength - foot) * (std::sin(kTilt) - friction * std::cos(kTilt)) / friction +
         foot;
     trial.expect(fmt::format("rest on the flat at mu_r {:.2f}, m", friction), expected,
-                 simulation.grain(0).position.x(), kTolerance * expected);
+                 at_rest->grain.position.x(), kTolerance * expected);
   }
 }
 
@@ -113,25 +138,28 @@ void holds_on_incline(Trial& trial, RollingModel model) {
   constexpr double kFriction = .1;
   for (const double fraction : {.5, .95, 1.2}) {
     const double tilt = std::atan(fraction * kFriction);
-    Simulation simulation = rolling_ball(trial, model, kFriction, tilt, 0);
-    const double expected = fraction < 1 ? 0
-                                         : 5.0 / 7 * kStandardGravity_m_s2 *
-                                               (std::sin(tilt) - kFriction * std::cos(tilt));
+    const RollingBall ball{.model = model, .rolling_friction = kFriction, .tilt = tilt};
+    const Path path = ball.path(trial, .4);
+    const double expected = fraction < 1 ? 0 : ball.acceleration();
     trial.expect(fmt::format("acceleration at tan(tilt) = {:.2f} mu_r, m/s2", fraction), expected,
-                 acceleration(simulation, tilt, .2, .4), fraction < 1 ? 1e-4 : .01 * expected);
+                 acceleration(path, tilt, .2, .4), fraction < 1 ? 1e-4 : .01 * expected);
     if (fraction < 1) {
       trial.expect(fmt::format("speed at tan(tilt) = {:.2f} mu_r, m/s", fraction), 0,
-                   speed_of(simulation, tilt), 1e-6);
+                   speed_of(path.back(), tilt), 1e-6);
     }
   }
 }
 
 /// A ball rolls out on a flat and then lies still.
 void comes_to_rest(Trial& trial, RollingModel model) {
-  Simulation simulation = rolling_ball(trial, model, .1, 0, .1);
-  while (simulation.time_s() < .5) simulation.advance(10);
-  trial.expect("kinetic energy left, J/J", 0,
-               simulation.energies().kinetic_j / (.7 * simulation.mass_kg(0) * .1 * .1), 1e-6);
+  constexpr double kSpeed = .1;
+  const RollingBall ball{.model = model, .rolling_friction = .1, .speed = kSpeed};
+  const Grain last = ball.path(trial, .5, 10).back().grain;
+  const double spin_speed = kBallRadius_m * last.spin.norm();
+  trial.expect(
+      "kinetic energy left, J/J", 0,
+      (.5 * last.velocity.squaredNorm() + .2 * spin_speed * spin_speed) / (.7 * kSpeed * kSpeed),
+      1e-6);
 }
 
 }  // namespace
@@ -244,23 +272,20 @@ void slip_to_roll(Trial& trial) {
         ball_scene({.restitution = kLowRestitution, .sliding_friction = friction});
     setup.walls = {tilted_plane(0)};
     setup.gravity = {0, 0, -kStandardGravity_m_s2};
-    Simulation simulation = trial.simulate(setup, kSpeed);
     Grain ball = resting_sphere(setup, 0);
     ball.velocity.x() = kSpeed;
-    simulation.add(ball);
-    const auto slip = [&simulation] {
-      const Grain now = simulation.grain(0);
-      return now.velocity.x() - kBallRadius_m * now.spin.y();
-    };
-    double before = kSpeed;
-    for (; slip() > 0; simulation.advance(1)) before = slip();
-    const double part = before / (before - slip());
-    const double time = simulation.time_s() - (1 - part) * simulation.setup().timestep_s;
     const double expected = 2 * kSpeed / (7 * friction * kStandardGravity_m_s2);
+    const Path path = trial.follow(setup, {ball}, kSpeed, 10 * expected);
+    const auto slip = [](const PathPoint& point) {
+      return point.grain.velocity.x() - kBallRadius_m * point.grain.spin.y();
+    };
+    const auto rolls = std::find_if(path.begin() + 1, path.end() - 1,
+                                    [&](const PathPoint& point) { return slip(point) <= 0; });
+    const double part = slip(rolls[-1]) / (slip(rolls[-1]) - slip(rolls[0]));
+    const double time = rolls[-1].time_s + part * (rolls[0].time_s - rolls[-1].time_s);
     trial.expect(fmt::format("slip ends at mu {:.1f}, ms", friction), 1e3 * expected, 1e3 * time,
                  .01 * 1e3 * expected);
-    while (simulation.time_s() < 10 * expected) simulation.advance(1);
-    const Grain rolling = simulation.grain(0);
+    const Grain& rolling = path.back().grain;
     trial.expect(fmt::format("u / u0 at last, mu {:.1f}", friction), 5.0 / 7,
                  rolling.velocity.x() / kSpeed, .002);
     trial.expect(fmt::format("r w / u0 at last, mu {:.1f}", friction), 5.0 / 7,
@@ -277,22 +302,14 @@ void sphere_on_incline(Trial& trial) {
         ball_scene({.restitution = kLowRestitution, .sliding_friction = friction});
     setup.walls = {tilted_plane(kTilt)};
     setup.gravity = {0, 0, -kStandardGravity_m_s2};
-    Simulation simulation = trial.simulate(setup, .1);
-    simulation.add(resting_sphere(setup, kTilt));
-    const auto speed_at = [&](double time) {
-      while (simulation.time_s() < time) simulation.advance(1);
-      return simulation.grain(0).velocity.dot(downhill(kTilt));
-    };
-    // The springs stretch first: the speed is counted from half-time on.
-    const double start = speed_at(kTime);
-    const double start_s = simulation.time_s();
-    const double gained = speed_at(2 * kTime) - start;
+    const Path path = trial.follow(setup, {resting_sphere(setup, kTilt)}, .1, 2 * kTime);
     const double expected =
         std::tan(kTilt) <= 3.5 * friction
             ? 5.0 / 7 * kStandardGravity_m_s2 * std::sin(kTilt)
             : kStandardGravity_m_s2 * (std::sin(kTilt) - friction * std::cos(kTilt));
     trial.expect(fmt::format("acceleration at mu {:.2f}, m/s2", friction), expected,
-                 gained / (simulation.time_s() - start_s), .002 * expected);
+                 // The springs stretch first: the speed is counted from half-time on.
+                 acceleration(path, kTilt, kTime, 2 * kTime), .002 * expected);
   }
 }
 

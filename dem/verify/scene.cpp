@@ -9,12 +9,56 @@
 
 namespace repose::dem {
 
-Trial::Trial(const VerifyCase& which, double timestep_fraction)
-    : name_(which.name), source_(which.source), timestep_share_(timestep_fraction) {}
+namespace {
+
+Simulation simulation_of(SimulationSetup setup, const std::vector<Grain>& grains) {
+  Simulation simulation(std::move(setup));
+  for (const Grain& grain : grains) simulation.add(grain);
+  return simulation;
+}
+
+}  // namespace
+
+Trial::Trial(const VerifyCase& which, double timestep_fraction, const CasePeer* peer)
+    : peer_(peer), name_(which.name), source_(which.source), timestep_share_(timestep_fraction) {}
+
+double Trial::timestep_s(const SimulationSetup& setup, double speed_m_s) const {
+  return timestep_share_ * accurate_timestep_s(setup, speed_m_s);
+}
+
+void Trial::take_timestep(SimulationSetup& setup, double speed_m_s) {
+  timestep_s_ = setup.timestep_s = timestep_s(setup, speed_m_s);
+}
+
+std::vector<Collision> Trial::collide_each(SimulationSetup setup,
+                                           const std::vector<Meeting>& meetings, double speed_m_s,
+                                           double radius) {
+  take_timestep(setup, speed_m_s);
+  if (peer_) return peer_->collide_each(setup, meetings);
+  std::vector<Collision> collisions;
+  for (const Meeting& meeting : meetings) {
+    Simulation simulation = simulation_of(setup, meeting);
+    collisions.push_back(dem::collide(simulation, radius));
+  }
+  return collisions;
+}
+
+Path Trial::follow(SimulationSetup setup, const std::vector<Grain>& grains, double speed_m_s,
+                   double duration_s, int every_steps) {
+  take_timestep(setup, speed_m_s);
+  if (peer_) return peer_->follow(setup, grains, duration_s, every_steps);
+  Simulation simulation = simulation_of(std::move(setup), grains);
+  Path path = {{.time_s = 0, .grain = simulation.grain(0)}};
+  while (path.back().time_s < duration_s) {
+    simulation.advance(every_steps);
+    path.push_back({.time_s = simulation.time_s(), .grain = simulation.grain(0)});
+  }
+  return path;
+}
 
 Simulation Trial::simulate(SimulationSetup setup, double speed_m_s) {
-  setup.timestep_s = timestep_share_ * accurate_timestep_s(setup, speed_m_s);
-  timestep_s_ = setup.timestep_s;
+  if (peer_) throw CannotRun("the case does more with our engine than to look on");
+  take_timestep(setup, speed_m_s);
   return Simulation(std::move(setup));
 }
 
@@ -96,40 +140,46 @@ Grain resting_sphere(const SimulationSetup& setup, double tilt_rad) {
 
 Vector downhill(double tilt_rad) { return {std::cos(tilt_rad), 0, -std::sin(tilt_rad)}; }
 
-Collision collide(Simulation& simulation, const Vector& away, double radius) {
-  std::vector<double> overlaps = {0};
-  std::vector<double> pushes = {0};
-  do {
-    simulation.advance(1);
-    overlaps.push_back(simulation.deepest_overlap() * radius);
-    pushes.push_back(simulation.force_n(0).dot(away));
-  } while (overlaps.back() > 0 || overlaps.size() < 4);
+Collision collision_of(const CollisionSamples& samples, const Grain& after, const Grain& struck) {
+  const std::vector<double>& overlaps = samples.overlaps_m;
   // The first and the last overlap change as fast as those next to them.
   const auto first = static_cast<std::size_t>(
       std::find_if(overlaps.begin(), overlaps.end(), [](double overlap) { return overlap > 0; }) -
       overlaps.begin());
   const std::size_t last = overlaps.size() - 2;
   const double before = overlaps[first] / (overlaps[first + 1] - overlaps[first]);
-  const double after = overlaps[last] / (overlaps[last - 1] - overlaps[last]);
-  const double steps = before + static_cast<double>(last - first) + after;
-  return {.after = simulation.grain(0),
+  const double behind = overlaps[last] / (overlaps[last - 1] - overlaps[last]);
+  const double steps = before + static_cast<double>(last - first) + behind;
+  const std::vector<double>& pushes = samples.pushes_n;
+  return {.after = after,
+          .struck = struck,
           .deepest_m = peak_of(overlaps),
           .peak_n = peak_of(pushes),
           .pull_n = std::max(0.0, -*std::min_element(pushes.begin(), pushes.end())),
-          .duration_s = steps * simulation.setup().timestep_s};
+          .duration_s = steps * samples.timestep_s};
+}
+
+Collision collide(Simulation& simulation, double radius) {
+  CollisionSamples samples = {
+      .timestep_s = simulation.setup().timestep_s, .overlaps_m = {0}, .pushes_n = {0}};
+  do {
+    simulation.advance(1);
+    samples.overlaps_m.push_back(simulation.deepest_overlap() * radius);
+    samples.pushes_n.push_back(simulation.force_n(0).z());
+  } while (samples.overlaps_m.back() > 0 || samples.overlaps_m.size() < 4);
+  return collision_of(samples, simulation.grain(0),
+                      simulation.grain_count() > 1 ? simulation.grain(1) : Grain{});
 }
 
 Collision strike_wall(Trial& trial, SimulationSetup setup, const Vector& velocity,
                       const Vector& spin) {
   setup.walls = {tilted_plane(0)};
   const double radius = setup.kinds[0].shape.spheres[0].radius;
-  Simulation simulation = trial.simulate(setup, velocity.norm());
   Grain grain;
   grain.position.z() = radius;
   grain.velocity = velocity;
   grain.spin = spin;
-  simulation.add(grain);
-  return collide(simulation, Vector::UnitZ(), radius);
+  return trial.collide(std::move(setup), {grain}, velocity.norm(), radius);
 }
 
 }  // namespace repose::dem

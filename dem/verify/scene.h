@@ -2,10 +2,12 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/units.h"
 #include "dem/engine/simulation.h"
+#include "dem/verify/case_peer.h"
 #include "dem/verify/verify.h"
 
 namespace repose::dem {
@@ -19,13 +21,28 @@ struct VerifyCase {
   std::function<void(Trial&)> run;
 };
 
-/// One run of a case: at one fraction of the accepted time step. Collects what comes out.
+/// One run of a case: at one fraction of the accepted time step, of our engine or of another
+/// program. Collects what comes out.
 class Trial {
  public:
-  Trial(const VerifyCase& which, double timestep_fraction);
+  /// `peer`: the other program; none: our engine.
+  Trial(const VerifyCase& which, double timestep_fraction, const CasePeer* peer = nullptr);
 
-  /// The simulation of a setup, with this trial's share of the longest time step that is accepted
-  /// for impacts at up to `speed_m_s`.
+  /// Collisions, each by itself, in steps that are this trial's share of the longest that is
+  /// accepted for impacts at up to `speed_m_s`; as collide() below.
+  /// @throws CannotRun  the other program cannot make them; so do all others.
+  std::vector<Collision> collide_each(SimulationSetup setup, const std::vector<Meeting>& meetings,
+                                      double speed_m_s, double radius);
+  Collision collide(SimulationSetup setup, const Meeting& meeting, double speed_m_s,
+                    double radius) {
+    return collide_each(std::move(setup), {meeting}, speed_m_s, radius).front();
+  }
+
+  /// Grain 0 from its start for so long.
+  Path follow(SimulationSetup setup, const std::vector<Grain>& grains, double speed_m_s,
+              double duration_s, int every_steps = 1);
+
+  /// The simulation of a setup, for cases that do more with it than to look on: only ours.
   Simulation simulate(SimulationSetup setup, double speed_m_s);
 
   /// Holds when `measured` is no further than `tolerance` from `expected`.
@@ -33,7 +50,13 @@ class Trial {
 
   const std::vector<CaseResult>& results() const { return results_; }
 
+  /// What the steps of these are.
+  double timestep_s(const SimulationSetup& setup, double speed_m_s) const;
+
  private:
+  void take_timestep(SimulationSetup& setup, double speed_m_s);
+
+  const CasePeer* peer_;
   std::string name_;
   std::string source_;
   double timestep_share_;
@@ -60,8 +83,6 @@ std::vector<VerifyCase> bed_cases();
 /// Energy and momentum of collisions.
 std::vector<VerifyCase> conservation_cases();
 
-class Trial;
-
 /// Grains of one kind (material 0) and a wall's material (1), the same coefficients for all pairs.
 /// No walls and no gravity yet.
 SimulationSetup scene_of(const ClumpShape& shape, const Material& grain, const Material& wall,
@@ -85,20 +106,9 @@ Grain resting_sphere(const SimulationSetup& setup, double tilt_rad);
 /// Down the slope of tilted_plane.
 Vector downhill(double tilt_rad);
 
-/// What happened while grain 0 touched something.
-struct Collision {
-  Grain after;
-  double deepest_m = 0;
-  double peak_n = 0;  ///< greatest push along `away`
-  double pull_n = 0;  ///< greatest pull; 0 when it never pulled
-  double duration_s = 0;
-};
-
-/// Follows a collision until grain 0, which comes near, touches nothing any more. Without gravity.
-///
-/// Peaks and duration are interpolated between steps. `away` is the unit vector from what is struck
-/// to grain 0, `radius` that of the smaller sphere.
-Collision collide(Simulation& simulation, const Vector& away, double radius);
+/// Follows a collision until grain 0, which comes near from above, touches nothing any more.
+/// Without gravity. `radius` is that of the smaller sphere.
+Collision collide(Simulation& simulation, double radius);
 
 /// Throws a sphere at a flat wall, from where it all but touches: from (0, 0, r) at the wall z = 0.
 Collision strike_wall(Trial& trial, SimulationSetup setup, const Vector& velocity,

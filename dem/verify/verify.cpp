@@ -1,6 +1,7 @@
 #include "dem/verify/verify.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/input_error.h"
 #include "dem/verify/scene.h"
@@ -18,10 +19,10 @@ std::vector<VerifyCase> all_cases() {
   return all;
 }
 
-std::vector<CaseResult> run(const VerifyCase& which) {
+std::vector<CaseResult> run(const VerifyCase& which, const CasePeer* peer = nullptr) {
   std::vector<CaseResult> results;
   for (const double fraction : {1.0, .5}) {
-    Trial trial(which, fraction);
+    Trial trial(which, fraction, peer);
     which.run(trial);
     results.insert(results.end(), trial.results().begin(), trial.results().end());
   }
@@ -36,7 +37,7 @@ std::vector<std::string> case_names() {
   return names;
 }
 
-std::vector<CaseResult> run_case(const std::string& name) {
+std::vector<CaseResult> run_case(const std::string& name, const CasePeer* peer) {
   const std::vector<VerifyCase> cases = all_cases();
   const auto found = std::find_if(cases.begin(), cases.end(),
                                   [&name](const VerifyCase& each) { return each.name == name; });
@@ -45,7 +46,23 @@ std::vector<CaseResult> run_case(const std::string& name) {
                             .value = "there is none with this name",
                             .fix = "one of those that case_names() lists."});
   }
-  return run(*found);
+  return run(*found, peer);
+}
+
+std::vector<PeerCase> run_cases_in(const CasePeer& peer, const ProgressCallback& progress) {
+  const std::vector<VerifyCase> cases = all_cases();
+  std::vector<PeerCase> made;
+  for (const VerifyCase& each : cases) {
+    PeerCase one{.name = each.name, .results = {}, .cannot = {}};
+    try {
+      one.results = run(each, &peer);
+    } catch (const CannotRun& reason) {
+      one.cannot = reason.what();
+    }
+    made.push_back(std::move(one));
+    if (progress) progress(made.size(), cases.size());
+  }
+  return made;
 }
 
 std::vector<CaseResult> run_cases(const ProgressCallback& progress) {

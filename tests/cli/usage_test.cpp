@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,17 @@ TEST(Usage, AllErrorsAreSaidAtOnce) {
     EXPECT_THAT(run.err, HasSubstr(error));
   }
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 8);
+}
+
+TEST(Usage, AProgramThatRunsNoCasesIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* program : {"edem", "repose"}) {
+    const Finished run =
+        run_repose(folder, {"verify", "--engine", program, "--json", "cases.json"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, AllOf(HasSubstr(program), HasSubstr("--engine liggghts")));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "cases.json"));
+  }
 }
 
 TEST(Usage, NonsenseWindowsAreRefused) {

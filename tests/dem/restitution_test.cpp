@@ -38,7 +38,7 @@ Collision impact(const SimulationSetup& setup, double late) {
   grain.velocity.z() = -kSpeed_m_s;
   simulation.add(grain);
   if (setup.walls.empty()) simulation.add({.position = {0, 0, -kBallRadius}});
-  return collide(simulation, Vector::UnitZ(), kBallRadius);
+  return collide(simulation, kBallRadius);
 }
 
 /// Speed apart over that of approach.
@@ -150,7 +150,7 @@ TEST(Restitution, BlockThatLandsOnFourSpheresRisesLess) {
     block.position.z() = .01;
     block.velocity.z() = -1;
     simulation.add(block);
-    const double out = collide(simulation, Vector::UnitZ(), .005).after.velocity.z();
+    const double out = collide(simulation, .005).after.velocity.z();
     EXPECT_NEAR(out, restitution_of(2 * damping_factor(e)), .002);
     EXPECT_LT(out, e - .05);
   }

@@ -156,7 +156,7 @@ double spin_lost(RollingModel model, double rolling_friction, double speed) {
     ball.spin.x() = side * kSpin;
     simulation.add(ball);
   }
-  return kSpin - collide(simulation, Vector::UnitZ(), kBallRadius_m).after.spin.x();
+  return kSpin - collide(simulation, kBallRadius_m).after.spin.x();
 }
 
 // What a coefficient means: between equal spheres R* is half of each one's own radius.

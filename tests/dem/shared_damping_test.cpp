@@ -32,7 +32,7 @@ double rebound_of_block(double restitution, DampingModel damping, double step, d
   Simulation simulation(setup);
   simulation.add({.position = {0, 0, .01 + late * setup.timestep_s * kImpactSpeed},
                   .velocity = {0, 0, -kImpactSpeed}});
-  return collide(simulation, Vector::UnitZ(), .005).after.velocity.z() / kImpactSpeed;
+  return collide(simulation, .005).after.velocity.z() / kImpactSpeed;
 }
 
 // As exact as one contact is at the steps of all experiments.
@@ -77,7 +77,7 @@ double rebound_in_groove(const std::vector<Wall>& walls, DampingModel damping) {
   setup.timestep_s = .5 * accurate_timestep_s(setup, kImpactSpeed);
   Simulation simulation(setup);
   simulation.add({.position = {0, 0, .005 * std::sqrt(2.0)}, .velocity = {0, 0, -kImpactSpeed}});
-  return collide(simulation, Vector::UnitZ(), .005).after.velocity.z() / kImpactSpeed;
+  return collide(simulation, .005).after.velocity.z() / kImpactSpeed;
 }
 
 // Each flank of the groove takes its half of the impact, as if the other were not there.

@@ -76,7 +76,7 @@ double energy_kept(bool on_ball, double angle_rad, double late, double timestep_
                   .velocity = velocity});
   if (on_ball) simulation.add({.position = {0, 0, -kBallRadius_m}});
   const double before = simulation.energies().kinetic_j;
-  collide(simulation, Vector::UnitZ(), kBallRadius_m);
+  collide(simulation, kBallRadius_m);
   return simulation.energies().kinetic_j / before;
 }
 

@@ -29,12 +29,12 @@ class Liggghts : public ::testing::Test {
 
   /// What LIGGGHTS makes of one ball and the commands after its set-up: the ball at each frame.
   std::vector<dem::Grain> run(const dem::SimulationSetup& setup, const dem::Grain& ball,
-                              DeckOptions options, const std::string& commands) const {
+                              calibrate::DeckOptions options, const std::string& commands) const {
     options.start = "read_data ball.txt";
-    folder_.write("ball.txt", data_of(setup, {ball}, kRoom));
-    run_liggghts(folder_, deck_of(setup, options) + commands);
+    folder_.write("ball.txt", calibrate::data_of(setup, {ball}, kRoom));
+    run_liggghts(folder_, calibrate::deck_of(setup, options) + commands);
     std::vector<dem::Grain> balls;
-    for (const auto& frame : frames_of(folder_.path())) balls.push_back(frame.at(0));
+    for (const auto& frame : calibrate::frames_of(folder_.path())) balls.push_back(frame.at(0));
     return balls;
   }
 
@@ -89,7 +89,7 @@ Drop drop_of(double restitution) {
 }
 
 std::string drop_commands(const Drop& drop) {
-  return dump_command(drop.steps_a_frame) + "run " +
+  return calibrate::dump_command(drop.steps_a_frame) + "run " +
          std::to_string(drop.frames * drop.steps_a_frame) + '\n';
 }
 
@@ -129,7 +129,7 @@ TEST_F(Liggghts, DroppedBallReboundsAlike) {
 // Told not to pull, it keeps its factor and rebounds higher: by what our equation says of that
 // factor. Same tolerance as above.
 TEST_F(Liggghts, DamperThatMayNotPullReboundsAsOurEquationSays) {
-  DeckOptions options;
+  calibrate::DeckOptions options;
   options.model_settings = "limitForce on";
   for (const double restitution : {.1, .3, .5}) {
     const Drop drop = drop_of(restitution);
@@ -156,7 +156,7 @@ double slip_deg(const std::vector<dem::Grain>& balls) {
 // acceleration and has gone .01 mm some .3 degrees later; so both may be up to .5 degrees late, but
 // by the same: one step of tilt is what can be told apart.
 TEST_F(Liggghts, BallThatCannotTurnSlipsAtTheSameTilt) {
-  DeckOptions options;
+  calibrate::DeckOptions options;
   options.integrator = "nve";  // moves, never turns
   for (const double friction : {.2, .39}) {
     dem::SimulationSetup setup =
@@ -170,13 +170,13 @@ TEST_F(Liggghts, BallThatCannotTurnSlipsAtTheSameTilt) {
     dem::Simulation simulation(setup);
     simulation.add(ball);
     std::vector<dem::Grain> balls = {ball};
-    std::string commands = dump_command(hold);
+    std::string commands = calibrate::dump_command(hold);
     for (int k = 1; k <= tilts; ++k) {
       const Vector gravity = gravity_at(k * kTiltStep_deg * kDegree);
       simulation = under_gravity(simulation, gravity);
       simulation.advance(hold);
       balls.push_back(simulation.grain(0));
-      commands += gravity_command(gravity) + "run " + std::to_string(hold) + '\n';
+      commands += calibrate::gravity_command(gravity) + "run " + std::to_string(hold) + '\n';
     }
     const double ours = slip_deg(balls);
     const double theirs = slip_deg(run(setup, ball, options, commands));
@@ -214,9 +214,9 @@ TEST_F(Liggghts, BallRollsAsFarOnTheFlat) {
     on_flat.advance(flat);
     const double ours = on_flat.grain(0).position.x() - length;
 
-    const std::string commands = dump_command(down) + "run " + std::to_string(down) + '\n' +
-                                 gravity_command(gravity_at(0)) + "run " + std::to_string(flat) +
-                                 '\n';
+    const std::string commands = calibrate::dump_command(down) + "run " + std::to_string(down) +
+                                 '\n' + calibrate::gravity_command(gravity_at(0)) + "run " +
+                                 std::to_string(flat) + '\n';
     const auto balls = run(setup, ball, {}, commands);
     const double theirs = balls.back().position.x() - balls.at(1).position.x();
     const double expected = length * pull / friction;

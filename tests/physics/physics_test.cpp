@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 
 #include <gtest/gtest.h>
@@ -63,6 +64,57 @@ TEST(VerifyCases, NumbersOutOfToleranceOrNoNumbersFail) {
 
 TEST(VerifyCases, UnknownNameIsRefused) {
   EXPECT_THROW(run_case("no such case"), base::InputError);
+}
+
+/// Our own engine in the place of another program, without means to follow a path.
+class MirrorPeer : public CasePeer {
+ public:
+  std::string title() const override { return "mirror"; }
+  std::vector<Collision> collide_each(const SimulationSetup& setup,
+                                      const std::vector<Meeting>& meetings) const override {
+    std::vector<Collision> collisions;
+    for (const Meeting& meeting : meetings) {
+      Simulation simulation(setup);
+      for (const Grain& grain : meeting) simulation.add(grain);
+      collisions.push_back(collide(simulation, setup.kinds[0].shape.spheres[0].radius));
+    }
+    return collisions;
+  }
+  Path follow(const SimulationSetup& /*setup*/, const std::vector<Grain>& /*grains*/,
+              double /*duration_s*/, int /*every_steps*/) const override {
+    throw CannotRun("a mirror stands still");
+  }
+};
+
+TEST(VerifyCases, AnotherProgramIsGivenTheSameScenes) {
+  const MirrorPeer peer;
+  for (const char* name : {"T1 two spheres, glass", "T8 spinning sphere on a great sphere",
+                           "energy of elastic oblique impacts"}) {
+    const std::vector<CaseResult> ours = run_case(name);
+    const std::vector<CaseResult> theirs = run_case(name, &peer);
+    ASSERT_EQ(theirs.size(), ours.size());
+    for (std::size_t k = 0; k < ours.size(); ++k) {
+      EXPECT_EQ(theirs[k].quantity, ours[k].quantity);
+      EXPECT_EQ(theirs[k].measured, ours[k].measured) << ours[k].quantity;
+      EXPECT_EQ(theirs[k].timestep_s, ours[k].timestep_s);
+    }
+  }
+}
+
+TEST(VerifyCases, WhatAnotherProgramCannotRunSaysWhy) {
+  const MirrorPeer peer;
+  std::size_t calls = 0;
+  const std::vector<PeerCase> cases =
+      run_cases_in(peer, [&calls](std::size_t done, std::size_t) { calls = done; });
+  ASSERT_EQ(cases.size(), case_names().size());
+  EXPECT_EQ(calls, cases.size());
+  const auto cannot = [&cases](const std::string& name) {
+    return std::ranges::find(cases, name, &PeerCase::name)->cannot;
+  };
+  EXPECT_EQ(cannot("bounce heights"), "a mirror stands still");
+  EXPECT_EQ(cannot("tumbling free block"), "the case does more with our engine than to look on");
+  EXPECT_EQ(cannot("T7 opposite spins"), "");
+  for (const PeerCase& each : cases) EXPECT_NE(each.results.empty(), each.cannot.empty());
 }
 
 }  // namespace

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "dem/verify/case_peer.h"
+
+namespace repose::calibrate {
+
+/// A program by its name, to run the cases of `repose verify`.
+/// @throws base::InputError  it has no means to, is not known, or not installed.
+std::unique_ptr<const dem::CasePeer> case_peer_of(const std::string& program);
+
+/// LIGGGHTS-PUBLIC 3.8. Proved by LiggghtsCases.* in tests/peers.
+/// @throws base::InputError  it is not installed.
+std::unique_ptr<const dem::CasePeer> liggghts_cases();
+
+}  // namespace repose::calibrate
