@@ -3,6 +3,7 @@
 #include "calibrate/export/conversions.h"
 #include "calibrate/export/target_entry.h"
 #include "calibrate/study/study_simulator.h"
+#include "dem/experiment/drop.h"
 #include "dem/experiment/experiment_table.h"
 #include "dem/experiment/heap.h"
 
@@ -68,6 +69,14 @@ void add_interaction(const std::string& pair, const std::string& other,
   }
 }
 
+/// What drops are made again from.
+void add_drops(const dem::DropProtocol& protocol, DeckFields& fields) {
+  DeckFields& drop = fields.add_section("DROP");
+  drop.set("HEIGHT", protocol.height_m);
+  drop.set("DROPPED", protocol.grains);
+  if (protocol.low_height_m) drop.add_section("LOW").set("LOW_HEIGHT", *protocol.low_height_m);
+}
+
 /// What a heap is rebuilt from.
 void add_heap(const ExportFacts& facts, DeckFields& fields) {
   const auto& protocol = facts.study().protocol<dem::HeapProtocol>();
@@ -105,6 +114,7 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
   fields.set("WALL_YOUNG", wall.young_modulus_pa);
   fields.set("WALL_SHEAR", six_digits(shear_modulus_pa(wall)));
   fields.set("WALL_POISSON", wall.poisson_ratio);
+  fields.set("WALL_DENSITY", wall.density_kg_m3);
   const EdemRolling rolling = rolling_in_edem(facts.study().model.rolling);
   fields.set("ROLLING_MODEL_NAME", edem_rolling_name(facts.study().model.rolling));
   add_interaction("contact.particle_wall.", sanitized(wall.name), conversions, rolling, fields);
@@ -119,7 +129,11 @@ ExportedFile values_text(const ExportFacts& facts, const Conversions& conversion
     own.set("PART_YOUNG", material.young_modulus_pa);
     own.set("PART_SHEAR", six_digits(shear_modulus_pa(material)));
     own.set("PART_POISSON", material.poisson_ratio);
+    own.set("PART_DENSITY", material.density_kg_m3);
     add_interaction("contact.particle_" + name_of(part) + '.', name, conversions, rolling, fields);
+  }
+  if (facts.has(dem::experiment_of<dem::DropProtocol>())) {
+    add_drops(facts.study().protocol<dem::DropProtocol>(), fields);
   }
   if (facts.has(dem::experiment_of<dem::HeapProtocol>())) add_heap(facts, fields);
   for (const dem::Experiment experiment : facts.experiments()) {

@@ -212,6 +212,20 @@ TEST(ExportStudy, PartsOfAnotherMaterialAreInTheOtherProgramsOrSaidToHaveNoDeck)
                     HasSubstr("grain with grain,Coefficient of Static Friction,0.21,")));
 }
 
+TEST(ExportStudy, EdemsTextHasWhatDropsAreMadeFrom) {
+  dem::Study study = hazelnuts();
+  study.experiments[dem::experiment_of<dem::DropProtocol>()].protocol =
+      dem::DropProtocol{.height_m = .25};
+  study.model.wall_material.density_kg_m3 = 7850;
+  EXPECT_THAT(file_text(exported(study, edem_target()), "values.txt"),
+              AllOf(HasSubstr("Solids Density        7850 kg/m^3"), HasSubstr("Drop: one grain"),
+                    HasSubstr("Height                0.25 m"),
+                    HasSubstr("Grains                10"), Not(HasSubstr("Second height"))));
+  study.experiments.erase(dem::experiment_of<dem::DropProtocol>());
+  EXPECT_THAT(file_text(exported(study, edem_target()), "values.txt"),
+              Not(HasSubstr("Drop: one grain")));
+}
+
 TEST(ExportStudy, APartWithoutAnExperimentNeedsNoCoefficients) {
   dem::Study study = on_two_materials();
   dem::Coefficient& restitution = study.particle_parts[dem::WallPart::tube].restitution;
