@@ -1,12 +1,13 @@
 #include "cli/common/position_options.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
+#include "calibrate/measured/measured_file.h"
 #include "cli/common/option_value.h"
 #include "vision/files/file_list.h"
-#include "vision/film/film_angle.h"
-#include "vision/scan/scan_file.h"
 
 namespace repose::cli {
 
@@ -59,6 +60,35 @@ calibrate::PositionsOptions read_position_options(const PositionArguments& argum
   options.reading.diameter_mm = read_number_within({"--particle-mm", arguments.particle_mm, errors},
                                                    kSmallest_mm, kLargest_mm, "--particle-mm 4");
   return options;
+}
+
+std::vector<std::filesystem::path> positions_files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::filesystem::path& file = entry->path();
+    if (!file.filename().string().starts_with('.') && calibrate::is_positions_file(file)) {
+      found.push_back(file);
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::vector<std::string> with_positions_of_folders(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  for (const std::string& name : names) {
+    std::vector<std::filesystem::path> files;
+    std::error_code ignored;
+    if (std::filesystem::is_directory(name, ignored) &&
+        vision::list_heap_files({name}).files.empty()) {
+      files = positions_files_in(name);
+    }
+    if (files.empty()) all.push_back(name);
+    for (const std::filesystem::path& file : files) all.push_back(file.string());
+  }
+  return all;
 }
 
 }  // namespace repose::cli

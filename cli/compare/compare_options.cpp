@@ -60,10 +60,12 @@ HeapSource folder_source(const std::string& name, std::vector<std::string>& erro
   source.kind = Kind::simulated;
   source.files = files_of(fs::path(name) / calibrate::kHeapsFolder, is_heap_state);
   if (source.files.empty()) source.files = files_of(name, is_heap_state);
+  if (source.files.empty()) source.files = positions_files_in(name);
   if (source.files.empty()) {
     errors.push_back(fmt::format(
-        "{}: no pictures, no scans and no simulated heaps in this folder. Fix: name a folder with "
-        ".jpg, .heic, .png, .tif, .bmp or .webp files in it, with .ply, .obj, .stl or .glb, or one "
+        "{}: no pictures, no scans and no simulated heaps in this folder (subfolders are not "
+        "searched). Fix: name a folder with .jpg, .heic, .png, .tif, .bmp or .webp files in it, "
+        "with .ply, .obj, .stl or .glb, with files of particles (.csv, .vtk, .vtu, dumps), or one "
         "that repose simulate heap --out or repose calibrate --out has written.",
         name));
   }

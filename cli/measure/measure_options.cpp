@@ -186,9 +186,10 @@ MeasurePlan plan_measure(const MeasureArguments& arguments) {
   }
 
   plan.frames_per_s = read_frame_rate(arguments.fps, arguments.pictures, plan.errors);
-  plan.pictures = files_in(plan.frames_per_s ? vision::list_with_frame_folders(arguments.pictures)
-                                             : vision::list_heap_files(arguments.pictures),
-                           plan.errors, plan.notes);
+  plan.pictures = files_in(
+      plan.frames_per_s ? vision::list_with_frame_folders(arguments.pictures)
+                        : vision::list_heap_files(with_positions_of_folders(arguments.pictures)),
+      plan.errors, plan.notes);
   read_step(arguments, plan);
   read_scans_and_particles(arguments, plan);
   check_kinds_of_files(arguments, plan);

@@ -55,6 +55,25 @@ TEST_F(MeasurePositions, GivesTheKeysOfAPictureAndWhatTheViewsGave) {
   EXPECT_EQ(again.out, text("out.json"));
 }
 
+TEST_F(MeasurePositions, AFolderOfParticlesIsItsFiles) {
+  std::filesystem::create_directory(folder_.path() / "heaps");
+  for (const char* name : {"heap.csv", "dump.9000"}) {
+    std::filesystem::rename(folder_.path() / name, folder_.path() / "heaps" / name);
+  }
+  folder_.write("heaps/.hidden.csv", std::string("x\n"));
+  const Finished result = run({"measure", "heaps", "--json", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json all = json::parse(result.out);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0]["file"], "heaps/dump.9000");
+  const Finished both = run({"compare", "heaps", "heaps/heap.csv", "--json", "-"});
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_NEAR(json::parse(both.out)["angle_difference_deg"].get<double>(), 0, .5);
+  std::filesystem::create_directory(folder_.path() / "none");
+  EXPECT_THAT(run({"compare", "none", "heaps"}).err,
+              AllOf(HasSubstr("no simulated heaps"), HasSubstr("files of particles")));
+}
+
 TEST_F(MeasurePositions, TheirAngleIsByTheDefinitionThatIsNamed) {
   const Finished usual = run({"measure", "heap.csv", "--json", "-"});
   const Finished named = run({"measure", "heap.csv", "--definition", "whole-flank", "--json", "-"});
