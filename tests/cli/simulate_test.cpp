@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -14,6 +15,8 @@
 
 #include "tests/calibrate/sphere_study.h"
 #include "tests/cli/command_test.h"
+#include "tests/support/run_program.h"
+#include "tests/support/soft_study.h"
 
 namespace repose::testing {
 namespace {
@@ -143,6 +146,31 @@ TEST_F(Simulate, AnEngineThatThereIsNotIsAnError) {
   const Finished processes = run({"drop", "study.toml", "--processes", "0"});
   EXPECT_EQ(processes.exit_code, 2);
   EXPECT_THAT(processes.err, HasSubstr("engine.processes = 0"));
+}
+
+// Our own engine keeps them, where they fell.
+TEST_F(Simulate, GrainsThatLiggghtsLosesOffThePlateAreWarnedOf) {
+  if (run_program("liggghts", {}, {"-in", "/dev/null", "-log", "none"}).exit_code != 0) {
+    GTEST_SKIP() << "liggghts is not installed. Fix: apt-get install liggghts";
+  }
+  folder_.write("rough.toml", kSoftBalls + "[contact]\nrolling_model = \"elastic_plastic\"\n" +
+                                  kRoughContacts + R"([experiment.heap]
+tube_diameter_mm = 90
+tube_height_mm = 420
+plate_mm = 160
+grains = 200
+lift_speed_mm_s = 200
+)");
+  const json heap = result({"heap", "rough.toml", "--engine", "liggghts"});
+  const json& readings = heap["repeats"][0]["readings"];
+  EXPECT_GT(readings["grains_off_plate"], 20);
+  EXPECT_EQ(readings["grains_off_plate"].get<double>() + readings["grains_on_plate"].get<double>(),
+            readings["grains"].get<double>());
+  const auto& warnings = heap["warnings"];
+  EXPECT_TRUE(std::ranges::any_of(warnings, [](const json& warning) {
+    return warning["code"] == "grains_off_plate" &&
+           warning["message"].get<std::string>().find("a larger plate") != std::string::npos;
+  })) << warnings;
 }
 
 TEST_F(Simulate, ThreadsDoNotChangeTheResult) {
