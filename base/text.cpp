@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <numeric>
 #include <sstream>
@@ -128,6 +129,18 @@ std::string_view take_word(std::string_view& text) {
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
   text.remove_prefix(word.size());
   return word;
+}
+
+std::string shell_word(std::string_view text) {
+  constexpr std::string_view kHarmless = "/._-+,:=@%";
+  const auto is_harmless = [&](unsigned char c) {
+    return std::isalnum(c) != 0 || c >= 0x80 ||
+           kHarmless.find(static_cast<char>(c)) != kHarmless.npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_harmless)) return std::string(text);
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 }  // namespace repose::base

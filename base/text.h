@@ -42,4 +42,7 @@ std::string_view take_word(std::string_view& text);
 /// The word of `known` that is closest to a mistyped one; empty when none is close.
 std::string closest_word(std::string_view mistyped, std::span<const std::string> known);
 
+/// A word of a command line: in quotes where a shell would take it for something else.
+std::string shell_word(std::string_view text);
+
 }  // namespace repose::base

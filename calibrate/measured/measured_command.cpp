@@ -1,7 +1,5 @@
 #include "calibrate/measured/measured_command.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -10,24 +8,12 @@
 #include <fmt/format.h>
 
 #include "base/angle_definition.h"
+#include "base/text.h"
 #include "base/units.h"
 
 namespace repose::calibrate {
 
 namespace {
-
-/// In quotes where a shell would take it for something else.
-std::string shell_word(const std::string& text) {
-  constexpr std::string_view kHarmless = "/._-+,:=@%";
-  const auto is_harmless = [&](unsigned char c) {
-    return std::isalnum(c) != 0 || c >= 0x80 ||
-           kHarmless.find(static_cast<char>(c)) != kHarmless.npos;
-  };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), is_harmless)) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string value_of(const vision::Box& box) {
   return fmt::format("{},{},{},{}", box.x, box.y, box.width, box.height);
@@ -59,7 +45,8 @@ class Options {
 };
 
 void add_scale(const vision::ScaleOptions& scale, Options& options) {
-  if (!scale.lens_file.empty()) options.add("--camera-file", shell_word(scale.lens_file.string()));
+  if (!scale.lens_file.empty())
+    options.add("--camera-file", base::shell_word(scale.lens_file.string()));
   if (scale.scale) {
     options.add("--scale",
                 fmt::format("{},{:g}", value_of(scale.scale->line), scale.scale->length_mm));
@@ -90,7 +77,7 @@ void add_measuring(const vision::MeasureOptions& told, Options& options) {
   options.add_each("--keep", told.hints.keep);
   options.add_each("--drop", told.hints.drop);
   if (!told.hints.mask_file.empty()) {
-    options.add("--mask", shell_word(told.hints.mask_file.string()));
+    options.add("--mask", base::shell_word(told.hints.mask_file.string()));
   }
   if (told.camera_pitch_rad) {
     options.add("--pitch-deg", fmt::format("{:g}", to_degrees(*told.camera_pitch_rad)));
@@ -111,7 +98,7 @@ std::string measure_command(const MeasuredPicture& picture) {
   add_measuring(picture.told.measuring, options);
   add_scale(picture.told.scale, options);
   add_frame_rate(picture, options);
-  return fmt::format("repose measure {}{}", shell_word(picture.file), options.text());
+  return fmt::format("repose measure {}{}", base::shell_word(picture.file), options.text());
 }
 
 vision::PictureSettings with_proposal(vision::PictureSettings told,

@@ -74,11 +74,13 @@ TEST_F(NewCommand, AllWrongOptionsAreToldAtOnceAndNothingIsWritten) {
   EXPECT_EQ(done.exit_code, 2);
   EXPECT_THAT(
       done.err,
-      AllOf(HasSubstr("soybean.txt: a study's name ends in .toml. Fix: repose new soybean.toml"),
-            HasSubstr("--grains soybeen"), HasSubstr("--plate glas"),
-            HasSubstr("--grain-mm 7.6,6.9: must be length, width and thickness"),
-            HasSubstr("--density-kg-m3 1.2: must be"), HasSubstr("--tube-mm 50: must be"),
-            HasSubstr("--experiments heep")));
+      AllOf(
+          HasSubstr("soybean.txt: a study's name ends in .toml. Fix: repose new soybean.toml"),
+          HasSubstr("kind of grain (--grains) is soybeen, which is unknown. Did you mean soybean?"),
+          HasSubstr("plate (--plate) is glas, which is unknown. Did you mean glass?"),
+          HasSubstr("--grain-mm 7.6,6.9: must be length, width and thickness"),
+          HasSubstr("density (--density-kg-m3) is 1.2. Rule: a number of kg/m3 from 10 to 25000"),
+          HasSubstr("--tube-mm 50: must be"), HasSubstr("experiments (--experiments) is heep")));
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
@@ -94,9 +96,9 @@ TEST_F(NewCommand, PartsOfAnotherMaterialHaveSectionsOfTheirOwn) {
   const Finished wrong =
       run({"b.toml", "--experiments", "drop", "--tube", "wood", "--pane", "wud"});
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_THAT(wrong.err,
-              AllOf(HasSubstr("--tube wood: none of the experiments has one"),
-                    HasSubstr("add heap or fill to --experiments"), HasSubstr("--pane wud")));
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("tube (--tube) of wood: none of the experiments has one"),
+                               HasSubstr("add heap or fill to the experiments (--experiments)"),
+                               HasSubstr("pane (--pane) is wud")));
 }
 
 TEST_F(NewCommand, ATubeThatGrainsJamInIsRefused) {
