@@ -299,21 +299,26 @@ void check_one_air(const std::string& sheet, const std::vector<BenchReading>& re
                   .fix = "make two sheets, of two studies."});
 }
 
-SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
-                            const dem::StudyExperiment& described, NoRows no_rows,
-                            base::Faults& errors) {
-  SheetReadings sheet{.experiment = std::string(entry.name),
-                      .file = *described.measured.sheet,
-                      .rows = 0,
-                      .notes = {},
-                      .values = {}};
+}  // namespace
+
+SheetReadings readings_of_table(const dem::ExperimentEntry& entry,
+                                const dem::StudyExperiment& described,
+                                const std::filesystem::path& file, Table table, NoRows no_rows) {
+  base::Faults errors;
+  SheetReadings sheet{
+      .experiment = std::string(entry.name), .file = file, .rows = 0, .notes = {}, .values = {}};
   const BenchTest test = bench_test_named(entry.sheet.test);
-  const auto [readings, left_out, notes] = read_sheet(sheet.file, test, {}, no_rows, errors);
+  const auto [readings, left_out, notes] = sheet_of(std::move(table), test, {}, no_rows, errors);
   for (const LeftOut& one : left_out) sheet.notes.push_back(text_of(one, sheet.file));
   sheet.notes.insert(sheet.notes.end(), notes.begin(), notes.end());
   check_protocol(entry, described.protocol, readings, errors);
-  check_readings(test, readings);
+  try {
+    check_readings(test, readings);
+  } catch (const base::InputError& error) {
+    errors.add_all(error.faults());
+  }
   check_one_air(sheet.file.filename().string(), readings, errors);
+  errors.throw_if_any();
   const auto is_without_air = [](const BenchReading& reading) {
     const auto in_air = reading.optional.find(std::string(kInAirColumn));
     return in_air != reading.optional.end() && in_air->second == 0;
@@ -324,15 +329,15 @@ SheetReadings read_sheet_of(const dem::ExperimentEntry& entry,
   return sheet;
 }
 
-}  // namespace
-
 std::vector<SheetReadings> read_sheets(const dem::Study& study, NoRows no_rows) {
   std::vector<SheetReadings> sheets;
   base::Faults errors;
   for (const auto& [experiment, described] : study.experiments) {
     if (!described.measured.sheet) continue;
     try {
-      sheets.push_back(read_sheet_of(*experiment, described, no_rows, errors));
+      const std::filesystem::path& file = *described.measured.sheet;
+      sheets.push_back(readings_of_table(*experiment, described, file,
+                                         read_table(file, NoRows::allowed), no_rows));
     } catch (const base::InputError& error) {
       errors.add_all(error.faults());
     }

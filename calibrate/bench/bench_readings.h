@@ -109,6 +109,13 @@ struct SheetReadings {
   bool in_air = true;  ///< as dem::Measured::in_air: its column in_air
 };
 
+/// What the table of an experiment's sheet gives, for whoever fills it in.
+/// @param file  for messages
+/// @throws base::InputError  every error of it, as of read_sheets().
+SheetReadings readings_of_table(const dem::ExperimentEntry& entry,
+                                const dem::StudyExperiment& described,
+                                const std::filesystem::path& file, Table table, NoRows no_rows);
+
 /// Reads all of them, in the order of the experiments. A sheet without rows has no values, or is an
 /// error.
 /// @throws base::InputError  every error of every sheet, "FILE:LINE: ..." each: see read_sheet

@@ -89,7 +89,11 @@ std::string text_of(const LeftOut& left_out, const std::filesystem::path& file) 
 Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
                  const std::map<std::string, double>& constants, NoRows no_rows,
                  base::Faults& errors) {
-  Table table = read_table(file, NoRows::allowed);
+  return sheet_of(read_table(file, NoRows::allowed), test, constants, no_rows, errors);
+}
+
+Sheet sheet_of(Table table, BenchTest test, const std::map<std::string, double>& constants,
+               NoRows no_rows, base::Faults& errors) {
   const std::vector<std::string> names = column_names(test);
   const std::vector<std::string> optional = optional_column_names(test);
   OtherRows other = take_other_rows(table, names, Unlabelled::refused, errors);

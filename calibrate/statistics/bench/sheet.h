@@ -31,10 +31,14 @@ struct Sheet {
   std::vector<std::string> notes;  ///< what a person should look at, a sentence each
 };
 
-/// The rows of a sheet, without those that are no readings (take_other_rows). Readings that are the
-/// same in all rows may be in `constants` instead of a column. Adds every error: columns that are
-/// missing or given twice, cells that are no numbers, no rows below the header unless that is
-/// allowed. Rows with such a cell are left out.
+/// The rows of a sheet's table, without those that are no readings (take_other_rows). Readings that
+/// are the same in all rows may be in `constants` instead of a column. Adds every error: columns
+/// that are missing or given twice, cells that are no numbers, no rows below the header unless that
+/// is allowed. Rows with such a cell are left out.
+Sheet sheet_of(Table table, BenchTest test, const std::map<std::string, double>& constants,
+               NoRows no_rows, base::Faults& errors);
+
+/// sheet_of a file's table.
 /// @throws base::InputError  it is no table, see parse_table.
 Sheet read_sheet(const std::filesystem::path& file, BenchTest test,
                  const std::map<std::string, double>& constants, NoRows no_rows,
