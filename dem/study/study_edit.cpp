@@ -1,0 +1,85 @@
+#include "dem/study/study_edit.h"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/input_error.h"
+#include "dem/study/config.h"
+
+namespace repose::dem {
+namespace {
+
+/// Where a line (from 1) begins; the text's end where there is none.
+std::size_t begin_of_line(std::string_view text, int line) {
+  std::size_t at = 0;
+  for (int k = 1; k < line; ++k) {
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) return text.size();
+    at = end + 1;
+  }
+  return at;
+}
+
+const ConfigValue* table_in(const ConfigValue& config, std::string_view path) {
+  const ConfigValue* table = &config;
+  while (table != nullptr && !path.empty()) {
+    const std::size_t point = std::min(path.find('.'), path.size());
+    table = table->find(std::string(path.substr(0, point)));
+    path.remove_prefix(std::min(point + 1, path.size()));
+  }
+  return table;
+}
+
+[[noreturn]] void refuse_edit(const NumberEdit& edit, const std::string& what) {
+  throw base::InputError({.subject = edit.table + '.' + edit.key,
+                          .value = what,
+                          .fix = "change it in the file, with a text editor."});
+}
+
+std::string with_number(std::string text, const NumberEdit& edit) {
+  StudyErrors errors;
+  const ConfigValue config = parse_config("study", text, {}, errors);
+  errors.throw_if_any();
+  const ConfigValue* table = table_in(config, edit.table);
+  if (table == nullptr || table->kind != ConfigValue::Kind::table || table->is_inline) {
+    refuse_edit(edit, fmt::format("cannot be set: there is no [{}]", edit.table));
+  }
+  const ConfigValue* value = table->find(edit.key);
+  if (value == nullptr) {
+    if (edit.number.empty()) return text;
+    const std::size_t heading = begin_of_line(text, table->place.line);
+    // A table of dotted keys has no heading.
+    if (text.compare(heading, edit.table.size() + 2, '[' + edit.table + ']') != 0) {
+      refuse_edit(edit, fmt::format("cannot be set: no line is [{}]", edit.table));
+    }
+    std::size_t below = text.find('\n', heading);
+    if (below == std::string::npos) {
+      below = text.size();
+      text += '\n';
+    }
+    return text.insert(below + 1, fmt::format("{} = {}\n", edit.key, edit.number));
+  }
+  const std::size_t line = begin_of_line(text, value->place.line);
+  const std::size_t end = std::min(text.find('\n', line), text.size());
+  const std::size_t equals = text.find('=', line);
+  const std::size_t at = text.find(value->shown, equals);
+  const bool is_number =
+      value->kind == ConfigValue::Kind::number || value->kind == ConfigValue::Kind::integer;
+  if (!is_number || at == std::string::npos || at >= end) {
+    refuse_edit(edit, fmt::format("is {}, and no number in a line of its own", value->shown));
+  }
+  if (!edit.number.empty()) return text.replace(at, value->shown.size(), edit.number);
+  return text.erase(line, end + 1 - line);
+}
+
+}  // namespace
+
+std::string with_numbers(std::string text, const std::vector<NumberEdit>& edits) {
+  for (const NumberEdit& edit : edits) text = with_number(std::move(text), edit);
+  return text;
+}
+
+}  // namespace repose::dem
