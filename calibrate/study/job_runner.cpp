@@ -52,8 +52,11 @@ std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
   std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
     return run_s_of(problem_, jobs[a]) > run_s_of(problem_, jobs[b]);
   });
-  simulate({.stage = stage, .of = static_cast<int>(open.size()), .seconds_later = later_s}, jobs,
-           open, runs);
+  simulate({.stage = stage,
+            .of = static_cast<int>(open.size()),
+            .seconds_later = later_s,
+            .rounds = rounds_},
+           jobs, open, runs);
   if (context_.is_interrupted) return std::nullopt;
   std::vector<Run> done;
   done.reserve(runs.size());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrate/experiment/run_store.h"
+#include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/problem.h"
 #include "calibrate/study/executor.h"
 
@@ -22,7 +23,8 @@ struct StudyProgress {
   int of = 0;
   double seconds_done = 0;  ///< estimated work of those, s of one core
   double seconds_of = 0;
-  std::optional<double> seconds_later;  ///< of the stages that follow, at most; none: unknown
+  std::optional<double> seconds_later;    ///< of the stages that follow, at most; none: unknown
+  std::vector<RoundSummary> rounds = {};  ///< of the fit, those that are complete
 };
 
 /// By what they are done. All of it must outlive the study.
@@ -49,6 +51,9 @@ class JobRunner {
   std::optional<std::vector<Run>> get(const std::string& stage, const std::vector<Job>& jobs,
                                       std::optional<double> later_s = {});
 
+  /// What those who watch are told of the rounds from now on.
+  void tell(std::vector<RoundSummary> rounds) { rounds_ = std::move(rounds); }
+
   int reused() const { return reused_; }
   int simulated() const { return simulated_; }
 
@@ -61,6 +66,7 @@ class JobRunner {
 
   const Problem& problem_;
   const StudyContext& context_;
+  std::vector<RoundSummary> rounds_;
   int reused_ = 0;
   int simulated_ = 0;
 };

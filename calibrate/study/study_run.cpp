@@ -13,7 +13,6 @@
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/fit/fit_watch.h"
 #include "calibrate/fit/points.h"
-#include "calibrate/fit/propose.h"
 #include "calibrate/fit/rounds.h"
 #include "calibrate/fit/solution.h"
 #include "calibrate/study/job_runner.h"
@@ -51,6 +50,7 @@ void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>
 /// Rounds until the fit has settled; false when interrupted.
 bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
                 std::vector<Run>& runs) {
+  require_sound(problem);
   const int most = problem.settings.max_rounds + (has_followers(problem) ? 1 : 0);
   double left_s = 0, checks_s = 0;
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
@@ -59,7 +59,8 @@ bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
     checks_s += estimate.varied_s;
   }
   for (int round = 1;; ++round) {
-    const std::vector<Job> jobs = propose(problem, runs);
+    const auto [complete, jobs] = reconstruct_rounds(problem, runs);
+    runner.tell(complete);
     if (jobs.empty()) return true;
     for (const Job& job : jobs) left_s -= run_s_of(problem, job);
     const double later_s = checks_s + (round < most ? std::max(0., left_s) : 0);

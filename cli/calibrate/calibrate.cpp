@@ -28,14 +28,9 @@
 namespace repose::cli {
 
 void StudyProgressLine::report(const calibrate::StudyProgress& progress) {
-  const bool is_new = progress.stage != stage_;
-  if (is_new) earlier_s_ += stage_s_;
-  stage_ = progress.stage;
-  stage_s_ = progress.seconds_done;
-  const double all_s = earlier_s_ + progress.seconds_of + progress.seconds_later.value_or(0);
-  const bool is_known = progress.seconds_later && all_s > 0;
-  const double fraction = is_known ? (earlier_s_ + stage_s_) / all_s : 0;
-  if (is_new) {
+  work_.add(progress);
+  const double fraction = work_.fraction();
+  if (work_.is_new_stage()) {
     line_.show_next();
     if (!line_.is_shown()) {
       print_error_text(fmt::format("{}: {} simulations{}\n", progress.stage, progress.of,
@@ -46,16 +41,21 @@ void StudyProgressLine::report(const calibrate::StudyProgress& progress) {
                fraction);
 }
 
+StudyMessages::StudyMessages(const CalibratePlan& plan)
+    : file_(plan.progress_file, plan.problem.problem.parameters) {}
+
 calibrate::StudyWatch StudyMessages::watch(const std::atomic<bool>& is_interrupted) {
   return {.report =
               [this](const calibrate::StudyProgress& progress) {
                 if (!line_) line_.emplace();
                 line_->report(progress);
+                file_.report(progress);
               },
           .note =
               [this](const std::string& text) {
                 line_.reset();
                 print_line(text);
+                file_.note(text);
               },
           .is_interrupted = &is_interrupted};
 }
@@ -90,8 +90,8 @@ ExitCode finish(const CalibratePlan& plan, const std::optional<calibrate::StudyR
 
 /// What `fit` returns; what it says is shown meanwhile.
 template <typename Fit>
-std::optional<calibrate::StudyResult> with_messages(const Fit& fit) {
-  StudyMessages messages;
+std::optional<calibrate::StudyResult> with_messages(const CalibratePlan& plan, const Fit& fit) {
+  StudyMessages messages(plan);
   return fit(messages.watch(watch_for_interrupt()));
 }
 
@@ -121,7 +121,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
   print_lines(plan.notes);
   const base::FolderLock lock(plan.folder, calibrate::lock_file_in(plan.folder));
   calibrate::RankExecutor executor(session, simulator);
-  return finish(plan, with_messages([&](const calibrate::StudyWatch& watch) {
+  return finish(plan, with_messages(plan, [&](const calibrate::StudyWatch& watch) {
                   enter_folder(plan, watch.note);
                   return fit_study(plan, {simulator, store, executor, is_interrupted, watch.report},
                                    watch.note);
@@ -161,7 +161,7 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (!plan.errors.empty()) return ExitCode::bad_input;
   print_lines(plan.notes);
   if (arguments.is_dry_run) return run_dry(plan);
-  return finish(plan, with_messages([&](const calibrate::StudyWatch& watch) {
+  return finish(plan, with_messages(plan, [&](const calibrate::StudyWatch& watch) {
                   return fit_study(plan, watch);
                 }));
 }

@@ -4,8 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "calibrate/run/progress_file.h"
 #include "calibrate/run/run_study.h"
-#include "calibrate/study/job_runner.h"
+#include "calibrate/study/study_work.h"
 #include "cli/calibrate/calibrate_options.h"
 #include "cli/common/output.h"
 #include "cli/common/terminal.h"
@@ -19,19 +20,20 @@ class StudyProgressLine {
   void report(const calibrate::StudyProgress& progress);
 
  private:
-  std::string stage_;
-  double earlier_s_ = 0;  ///< work of the stages before this one
-  double stage_s_ = 0;    ///< work done in this one
+  calibrate::StudyWork work_;
   ProgressLine line_{"at most {} remaining"};
 };
 
-/// What a study says on its way, on standard error: how far it is, and what to know.
+/// What a study says on its way: how far it is, and what to know, on standard error and in a file.
 class StudyMessages {
  public:
+  explicit StudyMessages(const CalibratePlan& plan);
+
   /// Lives as long as this.
   calibrate::StudyWatch watch(const std::atomic<bool>& is_interrupted);
 
  private:
+  calibrate::ProgressFile file_;
   std::optional<StudyProgressLine> line_;
 };
 

@@ -51,7 +51,7 @@ void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
 }
 
 /// Nothing of the user's may be written over.
-void check_places(CalibratePlan& plan) {
+void check_places(CalibratePlan& plan, bool is_dry_run) {
   const dem::Study& study = plan.record.study;
   if (plan.folder.empty()) plan.folder = calibrate::default_folder(study.file);
   if (const auto fault = calibrate::fault_of_folder(plan.folder, study.file)) {
@@ -62,7 +62,9 @@ void check_places(CalibratePlan& plan) {
                            calibrate::kResultFile, calibrate::kHeapFile}) {
     read.push_back(plan.folder / name);
   }
-  check_output_places({json_place(plan.json_file, "\"hash\"")}, read, plan.errors);
+  check_output_places({json_place(plan.json_file, is_dry_run ? "\"budgets\"" : "\"hash\""),
+                       json_place(plan.progress_file, "\"seconds_left\"", "--progress")},
+                      read, plan.errors);
 }
 
 /// A dry run tells what the joint method would do, and gives no results.
@@ -77,9 +79,6 @@ void check_method(const CalibrateArguments& arguments, CalibratePlan& plan) {
         "--dry-run: estimates runs of our own engine, not of [engine] program = \"{}\". Fix: leave "
         "it out.",
         plan.record.study.engine.program));
-  }
-  if (!arguments.json_file.empty()) {
-    plan.errors.emplace_back("--dry-run: gives no results for --json. Fix: leave one of them out.");
   }
   if (arguments.method != "joint") {
     plan.errors.push_back(
@@ -96,6 +95,7 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   plan.record.settings = arguments.settings;
   plan.folder = arguments.out_folder;
   plan.json_file = arguments.json_file;
+  plan.progress_file = arguments.progress_file;
   plan.record.method = arguments.method;
   attempt(plan.errors, [&] { plan.record.budget = calibrate::budget_named(arguments.budget); });
   const bool is_read = attempt(plan.errors, [&] {
@@ -103,7 +103,7 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   });
   read_jobs(arguments, plan);
   if (!is_read) return plan;
-  check_places(plan);
+  check_places(plan, arguments.is_dry_run);
   attempt(plan.errors, [&] {
     plan.record.measurement = calibrate::read_bench(
         plan.record.study,
@@ -198,7 +198,9 @@ Command calibrate_command() {
            {"--jobs", "N", "Simulations in parallel (all cores)", &given->jobs},
            {"--out", "FOLDER", "Output folder (STUDY_calibration)", &given->out_folder},
            {"--dry-run", "", "Only estimate how long each budget takes", &given->is_dry_run},
-           {"--json", "FILE|-", "Full results, for programs", &given->json_file}},
+           {"--json", "FILE|-", "Full results, for programs", &given->json_file},
+           {"--progress", "FILE.json", "How far it is, written over meanwhile",
+            &given->progress_file}},
       .notes = kCalibrateNotes,
       .missing = "no study file given. Fix: repose calibrate STUDY.toml.",
       .fields = kCalibrateFields,

@@ -30,12 +30,14 @@ struct CalibrateArguments {
   std::string jobs;
   std::string out_folder;
   std::string json_file;
+  std::string progress_file = {};
   bool is_dry_run = false;
 };
 
 /// What `repose calibrate` will do.
 struct CalibratePlan : calibrate::PreparedStudy {
   std::string json_file;
+  std::string progress_file;
   std::vector<std::string> errors;  ///< empty: it can be carried out
   std::vector<std::string> notes;   ///< for the user to know
 };

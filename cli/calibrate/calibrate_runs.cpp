@@ -29,6 +29,7 @@ void refuse_simulations(const CalibrateArguments& arguments, const char* what,
   refuse(arguments.budget != usual.budget, "--budget");
   refuse(arguments.method != usual.method, "--method");
   refuse(!arguments.rolling_models.empty(), "--rolling-models");
+  refuse(!arguments.progress_file.empty(), "--progress");
 }
 
 void check_json_place(const CalibrateArguments& arguments, const std::filesystem::path& folder,

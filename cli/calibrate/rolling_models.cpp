@@ -63,6 +63,11 @@ void check(const CalibrateArguments& arguments, std::vector<std::string>& errors
         "--rolling-models: takes as long as each model alone, added up. Fix: leave it out of "
         "--dry-run.");
   }
+  if (!arguments.progress_file.empty()) {
+    errors.emplace_back(
+        "--rolling-models: is several calibrations, and --progress is of one. Fix: leave one of "
+        "them out.");
+  }
   if (!arguments.json_file.empty()) {
     errors.emplace_back(
         "--rolling-models: each model has a result of its own. Fix: leave out --json, and read "

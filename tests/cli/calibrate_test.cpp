@@ -234,9 +234,39 @@ TEST_F(Calibrate, TellsBeforehandWhatEachBudgetWouldDo) {
   EXPECT_GT(drops, 0);
   EXPECT_GT(tilts, 0);
 
-  const Finished both = run({"study.toml", "--dry-run", "--json", "-", "--method", "paper"});
-  EXPECT_EQ(both.exit_code, 2);
-  EXPECT_THAT(both.err, AllOf(HasSubstr("for --json"), HasSubstr("--method paper")));
+  const Finished paper = run({"study.toml", "--dry-run", "--json", "-", "--method", "paper"});
+  EXPECT_EQ(paper.exit_code, 2);
+  EXPECT_THAT(paper.err, HasSubstr("--method paper"));
+}
+
+TEST_F(Calibrate, ADryRunTellsProgramsWhatItTellsPeople) {
+  const Finished done = run({"study.toml", "--dry-run", "--jobs", "2", "--json", "-"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json times = json::parse(done.out);
+  EXPECT_EQ(times["cores"], 2);
+  ASSERT_EQ(times["budgets"].size(), 2U);
+  EXPECT_EQ(times["budgets"][0]["budget"], "quick");
+  EXPECT_GT(times["budgets"][1]["seconds"], times["budgets"][0]["seconds"]);
+  EXPECT_EQ(times["budgets"][0]["experiments"][0]["experiment"], "drop");
+  EXPECT_GT(times["hour"][1]["runs"], 0);
+  EXPECT_EQ(files_in("study_calibration/runs"), 0U);
+}
+
+TEST_F(Calibrate, SaysHowFarItIsInAFile) {
+  folder_.write("mine.json", std::string("{}"));
+  EXPECT_THAT(run({"study.toml", "--progress", "mine.json"}).err, HasSubstr("--progress"));
+  ASSERT_EQ(run({"study.toml", "--progress", "p.json"}).exit_code, 0);
+  const json progress = json::parse(text("p.json"));
+  EXPECT_FALSE(progress["stage"].get<std::string>().empty());
+  EXPECT_GE(progress["done"], 1);
+  ASSERT_EQ(progress["parameters"].size(), 2U);
+  EXPECT_EQ(progress["parameters"][0]["name"], "contact.particle_wall.restitution");
+  // As the result has them.
+  const json result = json::parse(text("study_calibration/result.json"));
+  ASSERT_FALSE(progress["rounds"].empty());
+  EXPECT_LE(progress["rounds"].size(), result["rounds"].size());
+  EXPECT_EQ(progress["rounds"][0]["jobs"], result["rounds"][0]["jobs"]);
+  EXPECT_EQ(progress["rounds"][0]["sd"].size(), 2U);
 }
 
 TEST_F(CalibrateKilled, AgainAndAgainEndsWithTheSameBytes) {

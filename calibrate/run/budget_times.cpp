@@ -1,0 +1,114 @@
+#include "calibrate/run/budget_times.h"
+
+#include <map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "calibrate/fit/points.h"
+#include "calibrate/study/study_simulator.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr double kHour_s = 3600;
+
+/// By the name of the experiment: seconds here for a second of the program's own measure.
+using Pace = std::map<std::string, double>;
+
+struct BudgetPlan {
+  Budget budget;
+  Problem problem;
+  std::vector<ExperimentEstimate> estimates;
+};
+
+BudgetPlan plan_of(const PreparedStudy& study, const char* name) {
+  BudgetPlan made{.budget = budget_named(name), .problem = {}, .estimates = {}};
+  made.problem = problem_of(study.record.study, study.record.grain, made.budget).problem;
+  made.estimates = estimate_of(made.problem, made.budget);
+  return made;
+}
+
+Pace timed_pace(const PreparedStudy& study, const std::vector<ExperimentEstimate>& runs,
+                const std::atomic<bool>& is_interrupted,
+                const std::function<void(std::size_t, std::size_t)>& timed) {
+  constexpr double kLongest_s = 20;
+  const Problem& problem = study.problem.problem;
+  const StudySimulator simulator(study.record.study, study.record.grain, problem.parameters);
+  Job job{.experiment = {}, .values = {}, .seed = problem.settings.seed};
+  for (const Parameter& parameter : problem.parameters) {
+    job.values.push_back((parameter.min + parameter.max) / 2);
+  }
+  Pace pace;
+  if (timed) timed(0, runs.size());
+  for (const ExperimentEstimate& run : runs) {
+    job.experiment = run.experiment;
+    const double run_s = timed_run_s(simulator.spec(job), job.seed, kLongest_s, is_interrupted);
+    pace[run.experiment] = run_s / run.run_s;
+    if (timed) timed(pace.size(), runs.size());
+  }
+  return pace;
+}
+
+BudgetTime time_of(BudgetPlan plan, const Pace& pace, int cores) {
+  double all_s = 0;
+  for (const ExperimentEstimate& estimate : plan.estimates) {
+    all_s += pace.at(estimate.experiment) *
+             ((estimate.fit_runs + estimate.check_runs) * estimate.run_s + estimate.varied_s);
+  }
+  return {.budget = std::move(plan.budget),
+          .experiments = std::move(plan.estimates),
+          .seconds = all_s / cores};
+}
+
+/// What an hour more on all these cores is worth.
+std::vector<int> hour_runs(const BudgetPlan& plan, const Pace& pace, int cores) {
+  Problem problem = plan.problem;
+  for (Experiment& experiment : problem.experiments) {
+    const auto found = pace.find(experiment.name);
+    if (found != pace.end()) experiment.run_s *= found->second;
+  }
+  std::vector<int> runs = runs_for(problem, kHour_s * cores);
+  runs.resize(plan.estimates.size(), 0);  // what is held out gets no more
+  return runs;
+}
+
+}  // namespace
+
+BudgetTimes budget_times(const PreparedStudy& study, const std::atomic<bool>& is_interrupted,
+                         const std::function<void(std::size_t, std::size_t)>& timed) {
+  const Pace pace = timed_pace(study, estimate_of(study.problem.problem, study.record.budget),
+                               is_interrupted, timed);
+  BudgetTimes times{.cores = study.threads, .budgets = {}, .hour_runs = {}};
+  for (const char* name : {"quick", "standard"}) {
+    BudgetPlan plan = plan_of(study, name);
+    times.hour_runs = hour_runs(plan, pace, times.cores);  // beside the largest
+    times.budgets.push_back(time_of(std::move(plan), pace, times.cores));
+  }
+  return times;
+}
+
+std::string to_json(const BudgetTimes& times) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"cores", times.cores}, {"budgets", Json::array()}, {"hour", Json::array()}};
+  for (const BudgetTime& time : times.budgets) {
+    Json experiments = Json::array();
+    for (const ExperimentEstimate& one : time.experiments) {
+      experiments.push_back({{"experiment", one.experiment},
+                             {"fit_runs", one.fit_runs},
+                             {"check_runs", one.check_runs + one.varied_runs}});
+    }
+    json["budgets"].push_back({{"budget", time.budget.name},
+                               {"description", time.budget.description},
+                               {"seconds", time.seconds},
+                               {"experiments", experiments}});
+  }
+  for (std::size_t k = 0; k < times.hour_runs.size(); ++k) {
+    json["hour"].push_back({{"experiment", times.budgets.front().experiments[k].experiment},
+                            {"runs", times.hour_runs[k]}});
+  }
+  constexpr int kIndent = 2;
+  return json.dump(kIndent) + '\n';
+}
+
+}  // namespace repose::calibrate

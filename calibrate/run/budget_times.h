@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calibrate/run/run_study.h"
+#include "calibrate/study/study_estimate.h"
+
+/// What each budget would simulate of a study, and how long that takes on this machine.
+namespace repose::calibrate {
+
+struct BudgetTime {
+  Budget budget;
+  std::vector<ExperimentEstimate> experiments;
+  double seconds = 0;  ///< at most, on all the cores; the computation between rounds is extra
+};
+
+struct BudgetTimes {
+  int cores = 1;
+  std::vector<BudgetTime> budgets;  ///< the smallest first; each with the same experiments
+  std::vector<int> hour_runs;       ///< of each experiment, that one hour more buys; all the cores'
+};
+
+/// Times a run of each experiment, coefficients in the middle of their bounds, and saves nothing.
+/// @param timed  is told before the first run and after each how many of them are done
+/// @throws dem::Interrupted  `is_interrupted` became true.
+BudgetTimes budget_times(const PreparedStudy& study, const std::atomic<bool>& is_interrupted,
+                         const std::function<void(std::size_t done, std::size_t of)>& timed = {});
+
+/// All of it, for programs.
+std::string to_json(const BudgetTimes& times);
+
+}  // namespace repose::calibrate

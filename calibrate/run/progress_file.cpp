@@ -1,0 +1,61 @@
+#include "calibrate/run/progress_file.h"
+
+#include <system_error>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.h"
+#include "base/input_error.h"
+
+namespace repose::calibrate {
+namespace {
+
+constexpr std::chrono::seconds kEvery{1};
+constexpr double kEnoughToTell = .01;  // of the work: less foretells no time
+
+}  // namespace
+
+ProgressFile::ProgressFile(std::filesystem::path file, std::vector<Parameter> parameters)
+    : file_(std::move(file)), parameters_(std::move(parameters)) {}
+
+void ProgressFile::report(const StudyProgress& progress) {
+  progress_ = progress;
+  work_.add(progress);
+  if (!work_.is_new_stage() && Clock::now() < next_written_) return;
+  write();
+}
+
+void ProgressFile::note(const std::string& text) {
+  notes_.push_back(text);
+  write();
+}
+
+void ProgressFile::write() {
+  if (file_.empty()) return;
+  using Json = nlohmann::ordered_json;
+  const std::chrono::duration<double> spent = Clock::now() - start_;
+  const double fraction = work_.fraction();
+  Json json{{"stage", progress_.stage},    {"done", progress_.done},   {"of", progress_.of},
+            {"fraction", fraction},        {"seconds", spent.count()}, {"seconds_left", nullptr},
+            {"parameters", Json::array()}, {"rounds", Json::array()},  {"notes", notes_}};
+  if (fraction >= kEnoughToTell) {
+    json["seconds_left"] = spent.count() * (1 - fraction) / fraction;
+  }
+  for (const Parameter& parameter : parameters_) {
+    json["parameters"].push_back(
+        {{"name", parameter.name}, {"bounds", {parameter.min, parameter.max}}});
+  }
+  for (const RoundSummary& round : progress_.rounds) {
+    json["rounds"].push_back(
+        {{"round", round.round}, {"jobs", round.jobs}, {"values", round.values}, {"sd", round.sd}});
+  }
+  try {
+    base::write_whole_file(file_, json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n');
+  } catch (const base::InputError&) {
+    // The study, whose runs are at least as large, will say it where it must.
+  }
+  next_written_ = Clock::now() + kEvery;
+}
+
+}  // namespace repose::calibrate

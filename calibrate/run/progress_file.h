@@ -1,0 +1,38 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "calibrate/fit/problem.h"
+#include "calibrate/study/study_work.h"
+
+namespace repose::calibrate {
+
+/// How far a study is, as a file for programs that is written over while it goes on, about once a
+/// second, whole each time. One that cannot be written does not end the study.
+class ProgressFile {
+ public:
+  /// @param file  empty: none is written
+  ProgressFile(std::filesystem::path file, std::vector<Parameter> parameters);
+
+  void report(const StudyProgress& progress);
+  /// What a person should know.
+  void note(const std::string& text);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void write();
+
+  const std::filesystem::path file_;
+  const std::vector<Parameter> parameters_;
+  StudyProgress progress_;
+  StudyWork work_;
+  std::vector<std::string> notes_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point next_written_ = start_;
+};
+
+}  // namespace repose::calibrate
