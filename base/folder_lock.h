@@ -21,4 +21,7 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
+/// Whether another process has the lock of that file. False where there is no such file.
+bool is_locked_by_another(const std::filesystem::path& file);
+
 }  // namespace repose::base
