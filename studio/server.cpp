@@ -1,6 +1,5 @@
 #include "studio/server.h"
 
-#include <charconv>
 #include <exception>
 #include <functional>
 #include <string>
@@ -13,8 +12,13 @@
 #include "base/input_error.h"
 #include "base/version.h"
 #include "studio/access.h"
+#include "studio/answers.h"
+#include "studio/calibration_routes.h"
+#include "studio/calibrations.h"
 #include "studio/http.h"
 #include "studio/picture_folder.h"
+#include "studio/study_folder.h"
+#include "studio/study_routes.h"
 
 namespace repose::studio {
 
@@ -28,79 +32,23 @@ namespace {
 
 using httplib::Request;
 using httplib::Response;
-using Json = PictureFolder::Json;
 
 constexpr const char* kHost = "127.0.0.1";
-constexpr const char* kJson = "application/json";
 constexpr std::size_t kLargestUpload_bytes = std::size_t{128} << 20;
-
-std::string text_of(const Json& json) {
-  // File names need not be UTF-8, JSON must be.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-void refuse(Response& response, int status, const std::string& why) {
-  response.status = status;
-  response.set_content(text_of({{"error", why}}), kJson);
-}
-
-/// What a request names; faults of it are the caller's.
-std::string file_in(const Request& request) { return request.get_param_value("file"); }
-
-int number_in(const Request& request, const char* name, int from, int to, int otherwise) {
-  if (!request.has_param(name)) return otherwise;
-  const std::string text = request.get_param_value(name);
-  int number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size() || number < from || number > to) {
-    throw base::InputError({.where = name,
-                            .value = "is " + text,
-                            .rule = fmt::format("a whole number from {} to {}", from, to)});
-  }
-  return number;
-}
-
-Json json_in(const Request& request) {
-  Json json = Json::parse(request.body, nullptr, false);
-  if (json.is_discarded()) throw base::InputError({.value = "what was sent is no JSON"});
-  return json;
-}
-
-/// Faults of what was asked for become its answer.
-template <typename Answer>
-httplib::Server::Handler answering(const Answer& answer) {
-  return [answer](const Request& request, Response& response) {
-    try {
-      answer(request, response);
-    } catch (const base::InputError& error) {
-      refuse(response, 400, base::with_names(error.what()));
-    }
-  };
-}
-
-template <typename Ask>
-httplib::Server::Handler json_of(const Ask& ask) {
-  return answering([ask](const Request& request, Response& response) {
-    response.set_content(text_of(ask(request)), kJson);
-  });
-}
 
 void send(Response& response, const PictureFolder::Bytes& bytes, const char* type) {
   response.set_content(reinterpret_cast<const char*>(bytes.data()), bytes.size(), type);
 }
 
-void send_file(Response& response, const std::string& name, const std::string& content,
-               const char* type) {
-  response.set_header("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
-  response.set_content(content, type);
-}
-
 }  // namespace
 
 struct Server::Parts {
-  explicit Parts(const std::filesystem::path& folder) : pictures(folder) {}
+  explicit Parts(const StudioOptions& options)
+      : pictures(options.folder), studies(options.folder), calibrations(studies, options.program) {}
 
   PictureFolder pictures;
+  StudyFolder studies;
+  Calibrations calibrations;
   httplib::Server http;
   std::unique_ptr<Access> access;
   std::string address;
@@ -231,7 +179,7 @@ void Server::Parts::serve_files() {
            }));
 }
 
-Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(options.folder)) {
+Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(options)) {
   Parts& parts = *parts_;
   // A port that another studio listens at is taken, which SO_REUSEPORT, the library's choice,
   // denies.
@@ -256,6 +204,8 @@ Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   parts.serve_page();
   parts.serve_pictures();
   parts.serve_files();
+  serve_studies(parts.http, parts.studies);
+  serve_calibrations(parts.http, parts.calibrations);
 }
 
 Server::~Server() = default;

@@ -8,7 +8,8 @@ namespace repose::studio {
 
 struct StudioOptions {
   std::filesystem::path folder;
-  int port = 0;  ///< 0: one that is free
+  int port = 0;                        ///< 0: one that is free
+  std::filesystem::path program = {};  ///< that calibrates; empty: nothing is started
 };
 
 /// The page and what it asks for, over HTTP, for this machine alone. What an address gives is said

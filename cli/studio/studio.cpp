@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -68,7 +69,9 @@ ExitCode run_studio(const StudioArguments& arguments) {
   print_lines(errors);
   if (!errors.empty()) return ExitCode::bad_input;
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
-  studio::Server server({.folder = arguments.folder, .port = static_cast<int>(port.value_or(0))});
+  studio::Server server({.folder = arguments.folder,
+                         .port = static_cast<int>(port.value_or(0)),
+                         .program = std::filesystem::read_symlink("/proc/self/exe")});
   fmt::print("{}\n", server.address());
   std::fflush(stdout);
   print_line("open this address in a browser on this machine; Ctrl-C ends the studio");

@@ -100,7 +100,7 @@ export interface SetSummary extends Mean {
   outliers: {file: string; angle_deg: number; score: number; counted: boolean}[];
 }
 
-const asked = async <T>(address: string, options: RequestInit = {}): Promise<T> => {
+export const asked = async <T>(address: string, options: RequestInit = {}): Promise<T> => {
   let response: Response;
   try {
     response = await fetch(address, options);

@@ -6,6 +6,7 @@ import {api} from './api';
 import {Files} from './files';
 import {Result} from './result';
 import {SetView} from './set';
+import {Studies} from './study';
 import {Fields, Toolbar} from './tools';
 import type {Tool} from './viewer';
 import {Viewer} from './viewer';
@@ -128,6 +129,7 @@ const App = () => {
   const {folder, answers, errors, trouble, setTrouble, look, take} = useFolder();
   const [chosen, setChosen] = useState<string | null>(null);
   const [is_set, setIsSet] = useState(false);
+  const [is_study, setIsStudy] = useState(false);
   const [tool, setTool] = useState<Tool>('move');
   const [is_over, setIsOver] = useState(false);
   const files = folder?.files ?? [];
@@ -172,17 +174,19 @@ const App = () => {
         <h1>repose studio</h1>
         <p class="folder">{folder.folder}</p>
         <div class="views" role="group" aria-label="View">
-          <button type="button" aria-pressed={!is_set} onClick={() => setIsSet(false)}>Pictures</button>
-          <button type="button" aria-pressed={is_set} onClick={() => setIsSet(true)}>All as a set</button>
+          <button type="button" aria-pressed={!is_set && !is_study} onClick={() => { setIsSet(false); setIsStudy(false); }}>Pictures</button>
+          <button type="button" aria-pressed={is_set && !is_study} onClick={() => { setIsSet(true); setIsStudy(false); }}>All as a set</button>
+          <button type="button" aria-pressed={is_study} onClick={() => setIsStudy(true)}>Study</button>
         </div>
         <label class="add">Add pictures
           <input type="file" multiple onChange={(event) => { void add(event.currentTarget.files); event.currentTarget.value = ''; }} />
         </label>
       </header>
       {trouble && <p class="trouble" role="alert">{trouble}</p>}
-      {files.length === 0 && <main class="empty"><p>There are no pictures in this folder yet. Drop some onto this page, or add them above.</p></main>}
-      {files.length > 0 && is_set && <main><SetView folder={folder.folder} files={files} answers={answers} choose={choose} /></main>}
-      {entry && !is_set && (
+      {is_study && <main><Studies /></main>}
+      {!is_study && files.length === 0 && <main class="empty"><p>There are no pictures in this folder yet. Drop some onto this page, or add them above.</p></main>}
+      {!is_study && files.length > 0 && is_set && <main><SetView folder={folder.folder} files={files} answers={answers} choose={choose} /></main>}
+      {!is_study && entry && !is_set && (
         <main class="pictures">
           <Files files={files} answers={answers} errors={errors} chosen={entry.file} choose={choose} />
           <section class="picture" aria-label={entry.file}>
