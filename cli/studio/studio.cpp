@@ -87,9 +87,11 @@ ExitCode run_studio(const StudioArguments& arguments) {
 
 constexpr const char* kStudioNotes = R"(
 A page in your browser on which pictures, films and scans of heaps are looked
-at, corrected and summarised, with the command line that does the same beside
-each step. FOLDER holds them (the present folder if left out). Corrections are
-saved beside the pictures, as repose measure --save-hints does.
+at, corrected and summarised, and studies are started, filled in and calibrated,
+with the command line that does the same beside each step. FOLDER holds them
+(the present folder if left out). Corrections are saved beside the pictures, as
+repose measure --save-hints does; a calibration goes on when the page is closed,
+and stops in good order with the studio.
 
 The page is for this machine alone: nothing of it can be reached from another,
 nor by other pages in the same browser, and it needs no network. The address
@@ -106,7 +108,7 @@ Command studio_command() {
   const auto given = std::make_shared<StudioArguments>();
   return {
       .name = "studio",
-      .summary = "Look at heaps and correct them in the browser",
+      .summary = "Look at heaps and do studies in the browser",
       .options = {{"folder", "[FOLDER]", "With your pictures, films and scans (.)", &given->folder},
                   {"--no-browser", "", "Only print the address", &given->opens_no_browser},
                   {"--port", "N", "1024 to 65535 (one that is free)", &given->port}},

@@ -34,7 +34,7 @@ OUTPUTS = {
     "regress": ["regress runs.csv --response angle_deg --target 23 --json -"],
     "export": ["export hazelnut --to edem --json -"],
     "plan": ["plan drops.toml --experiments pendulum --minutes 0.1 --out planned --json -"],
-    "calibrate": ["calibrate study.toml --out hazelnut --json -",
+    "calibrate": ["calibrate study.toml --out hazelnut --json -", "calibrate study.toml --dry-run --json -",
                   "calibrate grain.toml --runs grain_runs.csv --json -",
                   "calibrate command.toml --json -"],
     "predict": ["predict grain.toml --runs grain_runs.csv --at grain_points.csv --json -"],
