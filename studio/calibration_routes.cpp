@@ -33,7 +33,7 @@ void send_report(Response& response, const std::string& html) {
 /// All with study=NAME but the first; answers are Calibrations':
 ///
 /// GET /api/tasks                             tasks()
-/// POST, DELETE /api/tasks?task=NAME          start() with budget=NAME, stop()
+/// POST, DELETE /api/tasks?task=NAME          start() with amount=TEXT, stop()
 /// GET /api/calibration                       state()
 /// POST /api/export?to=NAME&approximate=1     exported()
 /// GET /files/report                          report()
@@ -41,9 +41,8 @@ void send_report(Response& response, const std::string& html) {
 void serve_calibrations(httplib::Server& http, Calibrations& calibrations) {
   http.Get("/api/tasks", json_of([&](const Request&) { return calibrations.tasks(); }));
   http.Post("/api/tasks", json_of([&](const Request& request) {
-              const std::string budget = value_in(request, "budget");
               calibrations.start(value_in(request, "study"), value_in(request, "task"),
-                                 budget.empty() ? "quick" : budget);
+                                 value_in(request, "amount"));
               return calibrations.tasks();
             }));
   http.Delete("/api/tasks", json_of([&](const Request& request) {

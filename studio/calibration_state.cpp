@@ -128,7 +128,10 @@ Json Calibrations::state(const std::string& study) const {
   const bool is_locked = base::is_locked_by_another(calibrate::lock_file_in(folder));
   const Json result = is_inside ? json_in_file(folder / calibrate::kResultFile) : Json(nullptr);
   const int runs = is_inside ? runs_in(folder) : 0;
-  std::string state = runs > 0 ? "unfinished" : "none";
+  // A plan leaves runs there, too; a calibration says first whose they are.
+  std::error_code ignored;
+  const bool is_begun = is_inside && fs::exists(folder / calibrate::kNotesFile, ignored);
+  std::string state = is_begun ? "unfinished" : "none";
   if (result.is_object()) state = is_current(studies_, study, folder) ? "finished" : "changed";
   if (is_locked) state = "running";
   Json json{{"study", study},

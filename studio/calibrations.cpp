@@ -16,6 +16,7 @@
 #include "base/child_process.h"
 #include "base/input_error.h"
 #include "base/text.h"
+#include "calibrate/statistics/table/table.h"
 #include "calibrate/study/study_problem.h"
 
 namespace repose::studio {
@@ -178,7 +179,7 @@ Json Calibrations::tasks() const {
 }
 
 void Calibrations::start(const std::string& study, const std::string& name,
-                         const std::string& budget) {
+                         const std::string& amount) {
   const fs::path folder = studies_.calibration_of(study);
   const std::string own = argument_of(study);
   auto task = std::make_shared<Task>();
@@ -189,10 +190,17 @@ void Calibrations::start(const std::string& study, const std::string& name,
     base::refuse(folder, "leads out of the folder", "move it away.");
   }
   if (name == "calibrate") {
-    task->words = {"calibrate", own, "--budget", calibrate::budget_named(budget).name};
+    task->words = {"calibrate", own, "--budget",
+                   calibrate::budget_named(amount.empty() ? "quick" : amount).name};
     task->extra = {"--progress", (folder.filename() / kProgressFile).string()};
   } else if (name == "plan") {
-    task->words = {"plan", own, "--json", (folder.filename() / kPlanFile).string()};
+    task->words = {"plan", own};
+    if (!amount.empty()) {
+      const auto minutes = calibrate::number_of(amount);
+      if (!minutes) throw base::InputError({.where = "minutes", .value = "are no number"});
+      task->words.insert(task->words.end(), {"--minutes", fmt::format("{:g}", *minutes)});
+    }
+    task->extra = {"--json", (folder.filename() / kPlanFile).string()};
   } else if (name == "estimate") {
     task->words = {"calibrate", own, "--dry-run"};
   } else {

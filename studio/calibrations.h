@@ -50,9 +50,10 @@ class Calibrations {
   Json state(const std::string& study) const;
 
   /// @param task  "calibrate", "plan" or "estimate"
-  /// @param budget  of a calibration
-  /// @throws base::InputError  there is no such task or budget, or it waits or runs already.
-  void start(const std::string& study, const std::string& task, const std::string& budget);
+  /// @param amount  a calibration's budget; for how many minutes of a core a plan simulates; empty:
+  ///   the usual one
+  /// @throws base::InputError  there is no such task or amount, or it waits or runs already.
+  void start(const std::string& study, const std::string& task, const std::string& amount);
   /// Asks the program to end, or takes it out of those that wait.
   /// @throws base::InputError  it neither runs nor waits.
   void stop(const std::string& study, const std::string& task);

@@ -178,7 +178,8 @@ TEST_F(StudioCalibrations, WhatTheProgramRefusesIsTold) {
   const Json failed = ended();
   EXPECT_EQ(failed.at("state"), "failed");
   EXPECT_THAT(failed.at("lines").at(0), HasSubstr("drops.csv:2: rebound_mm = 600"));
-  for (const char* wrong : {"task=sing", "task=calibrate&budget=huge", "task="}) {
+  for (const char* wrong :
+       {"task=sing", "task=calibrate&amount=huge", "task=plan&amount=--help", "task="}) {
     studio_.post(std::string("/api/tasks?study=peas.toml&") + wrong, {}, 400);
   }
 }
@@ -192,6 +193,20 @@ TEST_F(StudioCalibrations, AnEstimateTellsTheTimeOfEachBudgetAndSavesNothing) {
   EXPECT_EQ(estimate.at("budgets").at(0).at("budget"), "quick");
   EXPECT_GT(estimate.at("budgets").at(0).at("seconds"), 0);
   EXPECT_THAT(studio_.folder.names(), Not(Contains("peas_calibration")));
+}
+
+TEST_F(StudioCalibrations, APlanIsThatOfTheCommandLine) {
+  studio_.post("/api/tasks?study=peas.toml&task=plan&amount=0.1", {});
+  const Json task = ended();
+  EXPECT_EQ(task.at("state"), "done") << task;
+  EXPECT_EQ(task.at("command"), "repose plan peas.toml --minutes 0.1");
+  const Json plan = studio_.get(kState).at("plan");
+  EXPECT_EQ(plan.at("hash"), studio_.get("/api/study?study=peas.toml").at("hash"));
+  EXPECT_EQ(plan.at("experiments").at(0).at("measured"), true);
+  EXPECT_EQ(plan, Json::parse(studio_.text("peas_calibration/plan.json")));
+  // Its simulations are no calibration that was begun.
+  EXPECT_GT(studio_.get(kState).at("runs"), 0);
+  EXPECT_EQ(studio_.get(kState).at("state"), "none");
 }
 
 TEST_F(StudioCalibrations, OneThatATerminalRunsIsSeen) {

@@ -202,7 +202,7 @@ export const CalibrationView = ({study, tasks, refresh}: {study: Study; tasks: T
   const is_at_work = run !== null && kAtWork.includes(run.state);
   const is_estimating = estimating !== null && kAtWork.includes(estimating.state);
   const before = tasks.filter((task) => task.study !== study.study && kAtWork.includes(task.state)).length;
-  const start = (task: string) => void act(studies.startTask(study.study, task, budget));
+  const start = (task: string) => void act(studies.startTask(study.study, task, task === 'calibrate' ? budget : ''));
   const word = state.state === 'unfinished' ? 'Resume' : state.state === 'finished' ? 'Calibrate again' : 'Start the calibration';
   return (
     <div class="calibration">

@@ -64,6 +64,7 @@ const Outlook = ({plan, names}: {plan: Plan; names: string[]}) => {
 
 export const PlanView = ({study, refresh}: {study: Study; tasks: Task[]; refresh: () => Promise<void>}) => {
   const [state, setState] = useState<Calibration | null>(null);
+  const [minutes, setMinutes] = useState('15');
   const [trouble, setTrouble] = useState('');
   const look = useCallback(async () => {
     try {
@@ -94,10 +95,21 @@ export const PlanView = ({study, refresh}: {study: Study; tasks: Task[]; refresh
   const names = plan ? Object.keys(plan.now.interval_widths) : [];
   return (
     <div class="plan">
-      <p class="hint">Before you go to the bench: every experiment that repose knows is simulated all over the bounds, for about 15 minutes of one core, to see which would determine the coefficients. A calibration uses these simulations.</p>
+      <p class="hint">Before you go to the bench: every experiment that repose knows is simulated all over the bounds, to see which would determine the coefficients. A calibration uses these simulations.</p>
       {trouble && <p class="trouble" role="alert">{trouble}</p>}
       <div class="actions">
-        {!is_at_work && <button type="button" class={plan ? '' : 'main'} onClick={() => void act(studies.startTask(study.study, 'plan', ''))}>{plan ? 'Plan again' : 'Find out'}</button>}
+        {!is_at_work && (
+          <>
+            <label class="check">Time on one core
+              <select value={minutes} onChange={(event) => setMinutes(event.currentTarget.value)}>
+                <option value="1">1 minute: cheap experiments</option>
+                <option value="15">15 minutes</option>
+                <option value="60">60 minutes</option>
+              </select>
+            </label>
+            <button type="button" class={plan ? '' : 'main'} onClick={() => void act(studies.startTask(study.study, 'plan', minutes))}>{plan ? 'Plan again' : 'Find out'}</button>
+          </>
+        )}
         {is_at_work && <><button type="button" disabled={task.state === 'stopping'} onClick={() => void act(studies.stopTask(study.study, 'plan'))}>Stop</button>
           <span role="status">{task.state === 'waiting' ? 'waits' : task.state === 'stopping' ? 'stops in good order …' : `at work for ${Math.round(task.seconds)} s: ${task.lines[task.lines.length - 1] ?? ''}`}</span></>}
       </div>
@@ -106,7 +118,7 @@ export const PlanView = ({study, refresh}: {study: Study; tasks: Task[]; refresh
       {plan && <Effects plan={plan} names={names} />}
       {plan && <Outlook plan={plan} names={names} />}
       {plan?.notes.map((note) => <p key={note} class="hint">{note}</p>)}
-      <section class="command" aria-label="The same on the command line"><h3>The same on the command line</h3><code>repose plan {study.study}</code></section>
+      <section class="command" aria-label="The same on the command line"><h3>The same on the command line</h3><code>repose plan {study.study} --minutes {minutes}</code></section>
     </div>
   );
 };

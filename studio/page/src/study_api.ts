@@ -174,8 +174,8 @@ export const studies = {
     asked<NumbersCheck>(of('/api/numbers', {study}), sent('PUT', {numbers, version})),
   tasks: () => asked<{tasks: Task[]}>('/api/tasks'),
   calibration: (study: string) => asked<Calibration>(of('/api/calibration', {study})),
-  startTask: (study: string, task: string, budget: string) =>
-    asked<{tasks: Task[]}>(of('/api/tasks', {study, task, budget}), {method: 'POST'}),
+  startTask: (study: string, task: string, amount: string) =>
+    asked<{tasks: Task[]}>(of('/api/tasks', {study, task, amount}), {method: 'POST'}),
   stopTask: (study: string, task: string) =>
     asked<{tasks: Task[]}>(of('/api/tasks', {study, task}), {method: 'DELETE'}),
   exported: (study: string, to: string, approximate: boolean) =>
