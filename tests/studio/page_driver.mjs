@@ -5,7 +5,7 @@ import {readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join} from 'node:path';
 
-export const kPatience_ms = Number(process.env.PATIENCE ?? 240_000);
+export const kPatience_ms = 240_000;
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
 export const startStudio = (repose, folder) => new Promise((resolve, reject) => {
