@@ -12,6 +12,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr std::chrono::seconds kEvery{1};
+constexpr std::chrono::seconds kAfterFailure{10};
 constexpr double kEnoughToTell = .01;  // of the work: less foretells no time
 
 }  // namespace
@@ -52,10 +53,11 @@ void ProgressFile::write() {
   }
   try {
     base::write_whole_file(file_, json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n');
+    next_written_ = Clock::now() + kEvery;
   } catch (const base::InputError&) {
-    // The study, whose runs are at least as large, will say it where it must.
+    // The study, whose runs are larger, will say it where it must.
+    next_written_ = Clock::now() + kAfterFailure;
   }
-  next_written_ = Clock::now() + kEvery;
 }
 
 }  // namespace repose::calibrate
