@@ -38,7 +38,7 @@ const Narrowing = ({progress}: {progress: Progress}) => {
               {rounds.map((round, k) => (
                 <g key={round.round}>
                   <line class="interval" x1={x(k)} x2={x(k)} y1={y(round.values[p]! - 2 * round.sd[p]!)} y2={y(round.values[p]! + 2 * round.sd[p]!)} />
-                  <circle cx={x(k)} cy={y(round.values[p]!)} r="4" />
+                  <circle cx={x(k)} cy={y(round.values[p]!)} r="3" />
                   <text x={x(k)} y={kHeight - 2} text-anchor="middle">{k + 1}</text>
                 </g>
               ))}
