@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,17 +17,6 @@ namespace repose::studio {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json line_json(const vision::Segment& line) {
-  return {line.from.x, line.from.y, line.to.x, line.to.y};
-}
-
-template <typename Item>
-Json or_null_json(const std::optional<Item>& item, const std::function<Json(const Item&)>& json) {
-  return item ? json(*item) : Json();
-}
-
-Json box_json(const vision::Box& box) { return {box.x, box.y, box.width, box.height}; }
 
 /// Reads one value; each fault of it names its key.
 class Reader {
@@ -176,15 +164,13 @@ void read_scale(const Reader& reader, const Json& told, base::Faults& faults,
 Json told_json(const vision::PictureSettings& told) {
   const vision::MeasureOptions& measuring = told.measuring;
   const vision::Hints& hints = measuring.hints;
-  Json excluded = Json::array();
-  for (const vision::Box& box : measuring.excluded) excluded.push_back(box_json(box));
   Json json{{"rotate_deg", hints.turn_deg},
-            {"heap", or_null_json<vision::Box>(hints.heap, box_json)},
+            {"heap", box_json(hints.heap)},
             {"half", hints.half ? Json(name_of(*hints.half)) : Json()},
-            {"ground", or_null_json<vision::Segment>(hints.ground, line_json)},
+            {"ground", line_json(hints.ground)},
             {"keep", places_json(hints.keep)},
             {"drop", places_json(hints.drop)},
-            {"exclude", excluded},
+            {"exclude", boxes_json(measuring.excluded)},
             {"scale", nullptr},
             {"board", told.scale.finds_board},
             {"pitch_deg", degrees(measuring.camera_pitch_rad)},
@@ -224,13 +210,13 @@ vision::PictureSettings with_told(vision::PictureSettings settings, const Json& 
 Json marks_json(const calibrate::MeasuredAgain& again) {
   const vision::ReposeAngle& angle = again.measured.angle;
   const auto side = [](const vision::Flank& flank) -> Json {
-    return {{"line", or_null_json<vision::Segment>(flank.line, line_json)},
+    return {{"line", line_json(flank.line)},
             {"apron_line", flank.apron ? line_json(flank.apron->line_with) : Json()}};
   };
   return {{"width", again.picture.width},
           {"height", again.picture.height},
           {"outline", places_json(angle.outline)},
-          {"ground", or_null_json<vision::Segment>(angle.ground, line_json)},
+          {"ground", line_json(angle.ground)},
           {"left", side(angle.left)},
           {"right", side(angle.right)}};
 }

@@ -244,16 +244,6 @@ Json definitions_json(const std::vector<vision::NamedAngle>& definitions) {
   return json;
 }
 
-Json box_json(const std::optional<vision::Box>& box) {
-  if (!box) return nullptr;
-  return Json::array({box->x, box->y, box->width, box->height});
-}
-
-Json line_json(const std::optional<vision::Segment>& line) {
-  if (!line) return nullptr;
-  return Json::array({line->from.x, line->from.y, line->to.x, line->to.y});
-}
-
 /// What a person has said of the picture; null when nothing.
 Json hints_json(const vision::Hints& hints) {
   if (hints.empty() && hints.source.empty()) return nullptr;
@@ -265,12 +255,6 @@ Json hints_json(const vision::Hints& hints) {
           {"drop", places_json(hints.drop)},
           {"mask", hints.mask.width > 0},
           {"file", hints.source.empty() ? Json() : Json(hints.source)}};
-}
-
-Json excluded_json(const std::vector<vision::Box>& boxes) {
-  Json json = Json::array();
-  for (const vision::Box& box : boxes) json.push_back(box_json(box));
-  return json;
 }
 
 /// What would help a refused picture; null when nothing is known.
@@ -442,7 +426,7 @@ Json measured_json(const MeasuredPicture& picture) {
             {"pitch_deg", degrees(angle.camera_pitch_rad)},
             {"confidence", angle.confidence},
             {"warnings", warnings_json(angle.warnings)},
-            {"excluded", excluded_json(picture.told.measuring.excluded)},
+            {"excluded", boxes_json(picture.told.measuring.excluded)},
             {"hints", hints_json(picture.told.measuring.hints)},
             {"proposal", proposal_json(picture.proposal)},
             {"segmentation", angle.segmentation},

@@ -18,6 +18,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import puppeteer from 'puppeteer-core';
+import {openWatched} from '../support/watched_page.mjs';
 import {writeStudyFolder} from './study_folder.mjs';
 
 const [repose, chromium, photograph, heapStudy, madeUpResult] = process.argv.slice(2);
@@ -47,20 +48,10 @@ const makeReports = (folder) => {
   return [join(study, 'report.html'), join(half, 'report.html'), measured];
 };
 
-// A page that notes what it must not do.
 const open = async (browser, file, width) => {
-  const page = await browser.newPage();
-  page.setDefaultTimeout(kPatience_ms);
-  const errors = [];
-  page.on('console', (message) => { if (message.type() === 'error') errors.push(`console: ${message.text()}`); });
-  page.on('pageerror', (error) => errors.push(`error: ${error.message}`));
-  page.on('request', (request) => {
-    const url = request.url();
-    if (!url.startsWith('data:') && !url.startsWith('blob:') && url !== pathToFileURL(file).href) errors.push(`request: ${url.slice(0, 200)}`);
-  });
-  await page.setViewport({width, height: 900});
-  const start = Date.now();
-  await page.goto(pathToFileURL(file).href);
+  const start = Date.now(), address = pathToFileURL(file).href;
+  const {page, errors} = await openWatched(browser, address,
+    {width, patience_ms: kPatience_ms, isOwn: (url) => url.startsWith('blob:') || url === address});
   console.log(`${file} at ${width} px: loaded in ${Date.now() - start} ms`);
   await page.waitForFunction(() => [...document.querySelectorAll('.chart')].every(({dataset}) => dataset.state === 'drawn'));
   return {page, errors};

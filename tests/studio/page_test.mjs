@@ -11,94 +11,16 @@
 // fetched from elsewhere, no error is told, axe finds nothing serious, nothing is wider than a telephone.
 // A studio that ends is noticed.
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
-import {existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync} from 'node:fs';
-import {createRequire} from 'node:module';
+import {existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import puppeteer from 'puppeteer-core';
+import {angle, button, choose, click, drag, drop, end, endAll, isOff, kPatience_ms, lookAt, onScreen, open, startStudio, textOf, until, untilMeasured} from './hands.mjs';
 
 const [repose, chromium, photos, pictures] = process.argv.slice(2);
-const kPatience_ms = 240_000;
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-
-const startStudio = (folder) => new Promise((resolve, reject) => {
-  const studio = spawn(repose, ['studio', folder, '--no-browser']);
-  let said = '';
-  studio.stdout.on('data', (text) => {
-    said += text;
-    if (said.includes('\n')) resolve({studio, address: said.trim()});
-  });
-  studio.on('exit', (code) => reject(new Error(`repose studio ended with ${code}`)));
-});
-
-const open = async (browser, address) => {
-  const page = await browser.newPage();
-  page.setDefaultTimeout(kPatience_ms);
-  const errors = [];
-  page.on('console', (message) => { if (message.type() === 'error') errors.push(`console: ${message.text()}`); });
-  page.on('pageerror', (error) => errors.push(`error: ${error.message}`));
-  page.on('request', (request) => {
-    if (!request.url().startsWith(new URL(address).origin) && !request.url().startsWith('data:')) errors.push(`request: ${request.url()}`);
-  });
-  await page.setViewport({width: 1280, height: 900});
-  await page.goto(address);
-  await page.waitForSelector('header');
-  return {page, errors};
-};
-
-const drop = async (page, files) => {
-  const client = await page.createCDPSession();
-  const data = {items: [], files, dragOperationsMask: 1};
-  for (const type of ['dragEnter', 'dragOver', 'drop']) await client.send('Input.dispatchDragEvent', {type, x: 500, y: 400, data});
-};
-
-const textOf = (page, selector) => page.$eval(selector, (element) => element.textContent);
-const button = async (page, name) => (await page.$$(`::-p-xpath(//button[normalize-space()='${name}'])`))[0];
-const click = async (page, name) => { await (await button(page, name)).click(); };
-const isOff = async (page, name) => (await button(page, name)).evaluate(({disabled}) => disabled);
-const until = (page, test, ...values) => page.waitForFunction(test, {}, ...values);
-const untilMeasured = (page, count) => until(page, (wanted) => document.querySelectorAll('.files .badge').length === wanted, count);
-const angle = (page) => textOf(page, '.result .angle');
-
-// Where a point of the picture lies on the screen.
-const onScreen = (page, x, y) => page.$eval('.viewer svg', (svg, px, py) => {
-  const at = new DOMPoint(px, py).matrixTransform(svg.getScreenCTM());
-  return [at.x, at.y];
-}, x, y);
-
-const drag = async (page, from, to) => {
-  await page.mouse.move(...await onScreen(page, ...from));
-  await page.mouse.down();
-  await page.mouse.move(...await onScreen(page, ...to), {steps: 6});
-  await page.mouse.up();
-};
-
-const serious = async (page) => {
-  await page.evaluate(axe);
-  const {violations} = await page.evaluate(() => window.axe.run());
-  return violations.filter(({impact}) => impact === 'serious' || impact === 'critical')
-    .map(({id, nodes}) => `${id}: ${nodes.map(({html}) => html.slice(0, 120)).join(' | ')}`);
-};
-
-// On a desk and on a telephone, light and dark.
-const lookAt = async (page, name) => {
-  for (const scheme of ['light', 'dark']) {
-    await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
-    for (const width of [1280, 390]) {
-      await page.setViewport({width, height: 900});
-      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false, `${name} is wider than ${width} px`);
-      assert.deepEqual(await serious(page), [], `${name}, ${scheme}, ${width} px`);
-      if (pictures) await page.screenshot({path: join(pictures, `${name}_${scheme}_${width}.png`)});
-    }
-  }
-  await page.emulateMediaFeatures([]);
-  await page.setViewport({width: 1280, height: 900});
-};
 
 const correctByHand = async (page, folder, name) => {
-  await (await page.$(`::-p-xpath(//nav//button[contains(., '${name}')])`)).click();
-  await page.waitForSelector('.viewer svg .flank');
+  await choose(page, name);
   const before = await angle(page);
   const size = await page.$eval('.viewer image', (image) => [Number(image.getAttribute('width')), Number(image.getAttribute('height'))]);
   const ground = await page.$eval('.viewer .ground', (line) => ['x1', 'y1', 'x2', 'y2'].map((key) => Number(line.getAttribute(key))));
@@ -174,37 +96,38 @@ const lookAtSet = async (page, count) => {
 };
 
 const sit = async (browser, folder) => {
-  const {studio, address} = await startStudio(folder);
+  const {studio, address} = await startStudio(repose, folder);
   const {page, errors} = await open(browser, address);
   assert.match(await textOf(page, '.empty'), /no pictures/);
   const files = readdirSync(photos).filter((name) => name.endsWith('.jpg'));
   await drop(page, files.map((name) => resolve(photos, name)));
   await untilMeasured(page, files.length);
   await correctByHand(page, folder, files[1]);
-  await lookAt(page, 'picture');
+  await lookAt(page, 'picture', pictures);
   await zoom(page);
   await measureALength(page);
   await forgetByKeys(page, folder, files[1]);
   await lookAtSet(page, files.length);
-  await lookAt(page, 'set');
+  await lookAt(page, 'set', pictures);
   // Without its key the page shows nothing.
   const stranger = await (await browser.createBrowserContext()).newPage();
   assert.equal((await stranger.goto(new URL('/', address).href)).status(), 403);
   assert.deepEqual(errors, []);
   studio.removeAllListeners('exit');
-  const ended = new Promise((resolve) => studio.on('exit', resolve));
-  studio.kill('SIGINT');
-  assert.equal(await ended, 0);
+  assert.equal(await end(studio, 'SIGINT'), 0);
   await page.waitForSelector('[role=alert]');
   assert.match(await textOf(page, '[role=alert]'), /has ended/);
 };
 
 const folder = mkdtempSync(join(tmpdir(), 'repose-studio-'));
+const heaps = join(folder, 'hazelnuts');
+mkdirSync(heaps);
 if (pictures) mkdirSync(pictures, {recursive: true});
 const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
 try {
-  await sit(browser, folder);
+  await sit(browser, heaps);
 } finally {
+  await endAll();
   await browser.close();
   rmSync(folder, {recursive: true});
 }

@@ -194,7 +194,7 @@ const App = () => {
           </section>
           {shown && (
             <aside>
-              <Result answer={shown} has_changes={!!current} needs_length={told?.scale?.length_mm === null} is_saved={entry.has_hints} is_told_here={is_told_here}
+              <Result answer={shown} definitions={folder.definitions} has_changes={!!current} needs_length={told?.scale?.length_mm === null} is_saved={entry.has_hints} is_told_here={is_told_here}
                 can_undo={(current?.past.length ?? 0) > 0} undo={undo} save={save} forget={forget}
                 propose={() => shown.proposed && tell(shown.proposed, true)} />
               {told && is_told_here && <Fields key={entry.file} told={told} tool={tool} folder={folder} choose={setTool} tell={tell} />}

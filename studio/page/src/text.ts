@@ -1,10 +1,17 @@
 // How results are said.
-import type {Mean, Measured} from './api';
+import type {Folder, Mean, Measured} from './api';
 
 export const angleText = (measured: Pick<Measured, 'angle_deg' | 'uncertainty_deg'>) => {
   if (measured.angle_deg === null) return 'no angle';
   const angle = measured.angle_deg.toFixed(2);
   return measured.uncertainty_deg === null ? `${angle}°` : `${angle} ± ${measured.uncertainty_deg.toFixed(2)}°`;
+};
+
+// What the angle is by: its definition in words, or the window that was asked for instead.
+export const wayText = ({definition, window}: Measured, definitions: Folder['definitions']) => {
+  const known = definitions.find(({name}) => name === definition);
+  if (known) return `${known.name}: ${known.description}`;
+  return window && `${Math.round(100 * window[0])}–${Math.round(100 * window[1])} % of the height`;
 };
 
 export const lengthText = (value: number | null, half: number | null) =>
