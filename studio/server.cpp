@@ -15,6 +15,7 @@
 #include "studio/access.h"
 #include "studio/http.h"
 #include "studio/picture_folder.h"
+#include "studio/told_json.h"
 
 namespace repose::studio {
 
@@ -34,11 +35,6 @@ constexpr const char* kHost = "127.0.0.1";
 constexpr const char* kJson = "application/json";
 constexpr std::size_t kLargestUpload_bytes = std::size_t{128} << 20;
 
-std::string text_of(const Json& json) {
-  // File names need not be UTF-8, JSON must be.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 void refuse(Response& response, int status, const std::string& why) {
   response.status = status;
   response.set_content(text_of({{"error", why}}), kJson);
@@ -46,6 +42,7 @@ void refuse(Response& response, int status, const std::string& why) {
 
 /// What a request names; faults of it are the caller's.
 std::string file_in(const Request& request) { return request.get_param_value("file"); }
+std::string version_in(const Request& request) { return request.get_param_value("version"); }
 
 int number_in(const Request& request, const char* name, int from, int to, int otherwise) {
   if (!request.has_param(name)) return otherwise;
@@ -72,6 +69,8 @@ httplib::Server::Handler answering(const Answer& answer) {
   return [answer](const Request& request, Response& response) {
     try {
       answer(request, response);
+    } catch (const PictureFolder::Changed& error) {
+      refuse(response, 409, error.what());
     } catch (const base::InputError& error) {
       refuse(response, 400, base::with_names(error.what()));
     }
@@ -82,6 +81,13 @@ template <typename Ask>
 httplib::Server::Handler json_of(const Ask& ask) {
   return answering([ask](const Request& request, Response& response) {
     response.set_content(text_of(ask(request)), kJson);
+  });
+}
+
+template <typename Ask>
+httplib::Server::Handler text_answer_of(const Ask& ask) {
+  return answering([ask](const Request& request, Response& response) {
+    response.set_content(ask(request), kJson);
   });
 }
 
@@ -182,28 +188,28 @@ void Server::Parts::serve_page() {
 /// GET /api/set         set()
 /// GET /api/measured    measured()
 /// POST /api/measure    measured_as() what is sent
-/// PUT /api/hints       save() what is sent
-/// DELETE /api/hints    forget()
+/// PUT /api/hints       save() what is sent; &version=
+/// DELETE /api/hints    forget(); &version=
 /// POST /api/file       add() what is sent, under that name
 void Server::Parts::serve_pictures() {
   http.Get("/api/folder", json_of([this](const Request&) {
              Json json = pictures.list();
              json["program"] = base::kProgram;
+             json["largest_upload_bytes"] = kLargestUpload_bytes;
              return json;
            }));
-  http.Get("/api/set", answering([this](const Request&, Response& response) {
-             response.set_content(pictures.set(), kJson);
+  http.Get("/api/set", text_answer_of([this](const Request&) { return pictures.set(); }));
+  http.Get("/api/measured", text_answer_of([this](const Request& request) {
+             return pictures.measured(file_in(request));
            }));
-  http.Get("/api/measured",
-           json_of([this](const Request& request) { return pictures.measured(file_in(request)); }));
   http.Post("/api/measure", json_of([this](const Request& request) {
               return pictures.measured_as(file_in(request), json_in(request));
             }));
-  http.Put("/api/hints", json_of([this](const Request& request) {
-             return pictures.save(file_in(request), json_in(request));
+  http.Put("/api/hints", text_answer_of([this](const Request& request) {
+             return pictures.save(file_in(request), json_in(request), version_in(request));
            }));
-  http.Delete("/api/hints", json_of([this](const Request& request) {
-                return pictures.forget(file_in(request));
+  http.Delete("/api/hints", text_answer_of([this](const Request& request) {
+                return pictures.forget(file_in(request), version_in(request));
               }));
   http.Post("/api/file", json_of([this](const Request& request) {
               return Json{{"file", pictures.add(file_in(request), request.body)}};

@@ -161,6 +161,11 @@ void read_scale(const Reader& reader, const Json& told, base::Faults& faults,
 
 }  // namespace
 
+std::string text_of(const Json& json) {
+  // File names need not be UTF-8, JSON must be.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 Json told_json(const vision::PictureSettings& told) {
   const vision::MeasureOptions& measuring = told.measuring;
   const vision::Hints& hints = measuring.hints;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include <nlohmann/json.hpp>
 
 #include "calibrate/measured/measured_file.h"
@@ -8,6 +10,9 @@
 /// What the page and the program say to each other about a picture, beside what `repose measure
 /// --json` says.
 namespace repose::studio {
+
+/// As it is sent.
+std::string text_of(const nlohmann::ordered_json& json);
 
 /// What a person has said of a picture: `rotate_deg`, `heap` [x, y, width, height], `half`,
 /// `ground` [x1, y1, x2, y2], `keep`, `drop` [[x, y], ...], `exclude` [[x, y, width, height], ...],

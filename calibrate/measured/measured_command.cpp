@@ -14,9 +14,6 @@
 
 namespace repose::calibrate {
 
-namespace {
-
-/// In quotes where a shell would take it for something else.
 std::string shell_word(const std::string& text) {
   constexpr std::string_view kHarmless = "/._-+,:=@%";
   const auto is_harmless = [&](unsigned char c) {
@@ -28,6 +25,8 @@ std::string shell_word(const std::string& text) {
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
 }
+
+namespace {
 
 std::string value_of(const vision::Box& box) {
   return fmt::format("{},{},{},{}", box.x, box.y, box.width, box.height);

@@ -8,6 +8,9 @@
 
 namespace repose::calibrate {
 
+/// In quotes where a shell would take it for something else.
+std::string shell_word(const std::string& text);
+
 /// The command line that measures the file with all that was said of it, as a shell takes it.
 std::string measure_command(const MeasuredPicture& picture);
 

@@ -11,8 +11,10 @@ const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.mi
 const studios = [];
 
 // From the folder above, as one would type it: what the page shows then has no place of this machine.
-export const startStudio = (repose, folder) => new Promise((resolve, reject) => {
-  const studio = spawn(absolute(repose), ['studio', basename(folder), '--no-browser'], {cwd: dirname(folder)});
+// With `room_kb` no file can be written that is larger, as on a disk that is full.
+export const startStudio = (repose, folder, {room_kb} = {}) => new Promise((resolve, reject) => {
+  const limit = room_kb ? `trap '' XFSZ; ulimit -f ${room_kb * 1024 / 512};` : '';
+  const studio = spawn('sh', ['-c', `${limit} exec "$0" studio "$1" --no-browser`, absolute(repose), basename(folder)], {cwd: dirname(folder)});
   studios.push(studio);
   let said = '', complaint = '';
   studio.stdout.on('data', (text) => {

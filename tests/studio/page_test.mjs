@@ -9,9 +9,10 @@
 // Photographs are dropped onto the page and measured; one is corrected by hand, undone, corrected again,
 // saved and, by the keyboard alone, forgotten; the set is looked at, sorted and downloaded. Nothing is
 // fetched from elsewhere, no error is told, axe finds nothing serious, nothing is wider than a telephone.
-// A studio that ends is noticed.
+// A studio that ends is noticed. Two windows do not write over each other, files that are too large and
+// disks that are full are told and leave nothing behind, and a folder has one studio at a time.
 import assert from 'node:assert/strict';
-import {existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync} from 'node:fs';
+import {closeSync, existsSync, mkdirSync, mkdtempSync, openSync, readFileSync, readdirSync, rmSync, truncateSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join, resolve} from 'node:path';
 import puppeteer from 'puppeteer-core';
@@ -95,6 +96,73 @@ const lookAtSet = async (page, count) => {
   assert.equal(table.trim().split('\n').length, count + 1);
 };
 
+// Two windows on one picture: what the first has saved is not written over by the second unasked.
+const fightForAPicture = async (browser, address, page, folder, name) => {
+  const {page: other, errors} = await open(browser, address);
+  await untilMeasured(other, (await page.$$('.files li')).length);
+  for (const [window, x] of [[page, 10], [other, 200]]) {
+    await window.bringToFront();  // a page behind others draws nothing
+    await choose(window, name);
+    await click(window, 'Leave out');
+    await drag(window, [x, 10], [x + 90, 60]);
+    await until(window, () => document.querySelector('.command code').textContent.includes('--exclude'));
+  }
+  const kept = () => /exclude.*/.exec(readFileSync(join(folder, `${name}.repose.toml`), 'utf8'))[0];
+  await page.bringToFront();
+  await click(page, 'Save');
+  await page.waitForSelector('.files .corrected');
+  const first = kept();
+  await other.bringToFront();
+  await click(other, 'Save');
+  await other.waitForSelector('::-p-xpath(//*[@role="alert"]//button[.="Keep mine"])');
+  assert.equal(kept(), first);
+  await click(other, 'Keep mine');
+  await click(other, 'Save');
+  await until(other, () => document.querySelector('.actions .hint').textContent.includes('are saved'));
+  const second = kept();
+  assert.notEqual(second, first);
+  // The first window shows what holds now.
+  await page.bringToFront();
+  await until(page, () => (document.querySelector('.command code').textContent.match(/--exclude/g) ?? []).length === 1
+    && document.querySelector('.said .exclude rect').getAttribute('x') >= 150);
+  await click(page, 'Start again');
+  await until(page, () => !document.querySelector('.said .exclude'));
+  // One that only looks is refused by the studio's answer alone.
+  assert.deepEqual(errors.filter((error) => !error.includes('409')), []);
+  await other.close();
+  await page.bringToFront();
+};
+
+// A file too large for the page, and a disk without room for one: told, and nothing half there.
+const attackByFiles = async (page, folder) => {
+  const before = readdirSync(folder).sort();
+  const large = join(folder, '..', 'large.jpg');
+  closeSync(openSync(large, 'w'));
+  truncateSync(large, 200 * 2 ** 20);
+  await (await page.$('.add input')).uploadFile(large);
+  await page.waitForSelector('[role=alert]');
+  assert.match(await textOf(page, '[role=alert]'), /larger than 128 MB.*Fix/);
+  assert.deepEqual(readdirSync(folder).sort(), before);
+};
+
+const sitWithAFullDisk = async (browser, folder) => {
+  const {studio, address} = await startStudio(repose, folder, {room_kb: 64});
+  const {page} = await open(browser, address);
+  await drop(page, [resolve(photos, 'heap_01.jpg')]);
+  await page.waitForSelector('[role=alert]');
+  assert.match(await textOf(page, '[role=alert]'), /heap_01.jpg: cannot be written .*Fix/);
+  assert.deepEqual(readdirSync(folder), ['.repose-studio.lock']);
+  // Another may not start there meanwhile, and a killed one leaves no lock.
+  await assert.rejects(startStudio(repose, folder), /process \d+ is using it.*Fix: open the address/s);
+  studio.removeAllListeners('exit');
+  await end(studio, 'SIGKILL');
+  await until(page, () => /has ended/.test(document.querySelector('[role=alert]').textContent));
+  const {studio: next} = await startStudio(repose, folder);
+  next.removeAllListeners('exit');
+  assert.equal(await end(next, 'SIGINT'), 0);
+  await page.close();
+};
+
 const sit = async (browser, folder) => {
   const {studio, address} = await startStudio(repose, folder);
   const {page, errors} = await open(browser, address);
@@ -109,14 +177,16 @@ const sit = async (browser, folder) => {
   await forgetByKeys(page, folder, files[1]);
   await lookAtSet(page, files.length);
   await lookAt(page, 'set', pictures);
+  await click(page, 'Pictures');
+  await fightForAPicture(browser, address, page, folder, files[2]);
+  await attackByFiles(page, folder);
   // Without its key the page shows nothing.
   const stranger = await (await browser.createBrowserContext()).newPage();
   assert.equal((await stranger.goto(new URL('/', address).href)).status(), 403);
   assert.deepEqual(errors, []);
   studio.removeAllListeners('exit');
   assert.equal(await end(studio, 'SIGINT'), 0);
-  await page.waitForSelector('[role=alert]');
-  assert.match(await textOf(page, '[role=alert]'), /has ended/);
+  await until(page, () => /has ended/.test(document.querySelector('[role=alert]').textContent));
 };
 
 const folder = mkdtempSync(join(tmpdir(), 'repose-studio-'));
@@ -126,6 +196,9 @@ if (pictures) mkdirSync(pictures, {recursive: true});
 const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
 try {
   await sit(browser, heaps);
+  const full = join(folder, 'full');
+  mkdirSync(full);
+  await sitWithAFullDisk(browser, full);
 } finally {
   await endAll();
   await browser.close();

@@ -62,6 +62,7 @@ export interface Marks {
 }
 
 export interface Answer {
+  version: string;
   measured: Measured;
   told: Told | null;  // null of scans and files of particles
   marks: Marks | null;
@@ -78,7 +79,10 @@ export interface FileEntry {
 
 export interface Folder {
   folder: string;
+  name: string;
   program: string;
+  command: string;  // that measures all of it
+  largest_upload_bytes: number;
   definitions: {name: string; description: string}[];
   files: FileEntry[];
 }
@@ -116,6 +120,8 @@ const asked = async <T>(address: string, options: RequestInit = {}): Promise<T> 
 
 const named = (path: string, file: string) => `${path}?file=${encodeURIComponent(file)}`;
 
+const versioned = (path: string, file: string, version: string) => `${named(path, file)}&version=${encodeURIComponent(version)}`;
+
 // A line without its length is no scale yet.
 const sent = (told: Told) => JSON.stringify(told.scale?.length_mm === null ? {...told, scale: null} : told);
 
@@ -125,12 +131,13 @@ export const api = {
   measured: (file: string) => asked<Answer>(named('/api/measured', file)),
   measure: (file: string, told: Told) =>
     asked<Answer>(named('/api/measure', file), {method: 'POST', body: sent(told)}),
-  save: (file: string, told: Told) =>
-    asked<Answer>(named('/api/hints', file), {method: 'PUT', body: sent(told)}),
-  forget: (file: string) => asked<Answer>(named('/api/hints', file), {method: 'DELETE'}),
+  // Both are refused where the file, or what is saved beside it, is not of that version any more.
+  save: (file: string, told: Told, version: string) =>
+    asked<Answer>(versioned('/api/hints', file, version), {method: 'PUT', body: sent(told)}),
+  forget: (file: string, version: string) => asked<Answer>(versioned('/api/hints', file, version), {method: 'DELETE'}),
   add: (file: File) => asked<{file: string}>(named('/api/file', file.name), {method: 'POST', body: file}),
   // The version makes the browser fetch a picture again that has changed.
   picture: (entry: FileEntry, side: number, rotate_deg: number) =>
-    `${named('/api/picture', entry.file)}&side=${side}&turns=${rotate_deg / 90}&version=${encodeURIComponent(entry.version)}`,
+    `${versioned('/api/picture', entry.file, entry.version)}&side=${side}&turns=${rotate_deg / 90}`,
   overlay: (file: string) => named('/api/overlay', file),
 };

@@ -1,6 +1,6 @@
 // All files as repeats of one experiment: their mean, a dot for each, a table to sort.
 import {useEffect, useState} from 'preact/hooks';
-import type {Answer, FileEntry, Measured, SetSummary} from './api';
+import type {Answer, FileEntry, Folder, Measured, SetSummary} from './api';
 import {api} from './api';
 import {Badge} from './result';
 import {angleText, meanText} from './text';
@@ -85,7 +85,7 @@ const kColumns: {key: Key; name: string}[] = [
 ];
 
 interface Props {
-  folder: string;
+  folder: Folder;
   files: FileEntry[];
   answers: Map<string, Answer>;
   choose: (file: string) => void;
@@ -160,7 +160,7 @@ export const SetView = ({folder, files, answers, choose}: Props) => {
         </table>
       </div>
       <div class="command"><h3>The same on the command line</h3>
-        <code>repose measure '{folder}' --csv angles.csv --report photos.html</code></div>
+        <code>{folder.command}</code></div>
     </section>
   );
 };
