@@ -18,6 +18,7 @@
 #include "calibrate/measured/measured_command.h"
 #include "calibrate/measured/measured_json.h"
 #include "calibrate/measured/measured_set.h"
+#include "calibrate/measured/measured_workbook.h"
 #include "calibrate/report/measure_report.h"
 #include "studio/told_json.h"
 #include "vision/drawing/overlay.h"
@@ -202,13 +203,12 @@ void drop_outline(calibrate::MeasuredPicture& measured) {
 
 }  // namespace
 
-std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const std::string& file) {
-  const fs::path path = path_of(file);
+std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const fs::path& path) {
   const std::string version = version_of(path);
   std::shared_ptr<Kept> kept;
   {
     const std::lock_guard lock(mutex_);
-    auto& place = kept_[file];
+    auto& place = kept_[path.filename().string()];
     if (!place) place = std::make_shared<Kept>();
     kept = place;
   }
@@ -238,7 +238,7 @@ std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const std::string& file
 }
 
 std::string PictureFolder::measured(const std::string& file) {
-  const auto kept = this->kept(file);
+  const auto kept = this->kept(path_of(file));
   const std::lock_guard lock(kept->mutex);
   return kept->answer;
 }
@@ -293,7 +293,7 @@ PictureFolder::Bytes PictureFolder::picture(const std::string& file, int side_px
   constexpr int kQuality = 88;
   const fs::path path = path_of(file);
   if (!is_photograph(path)) {
-    const auto kept = this->kept(file);
+    const auto kept = this->kept(path);
     const std::lock_guard lock(kept->mutex);
     return kept->measured.overlay.bytes;
   }
@@ -345,7 +345,7 @@ std::vector<calibrate::MeasuredPicture> PictureFolder::all() {
   std::vector<fs::path> files = files_of(folder_);
   std::vector<std::string> pixels;
   for (const fs::path& file : files) {
-    const auto kept = this->kept(file.filename().string());
+    const auto kept = this->kept(file);
     const std::lock_guard lock(kept->mutex);
     pictures.push_back(kept->measured);
     pixels.push_back(kept->measured.pixels);
@@ -361,6 +361,11 @@ std::vector<calibrate::MeasuredPicture> PictureFolder::all() {
 std::string PictureFolder::set() { return calibrate::set_json(calibrate::measured_set(all()), {}); }
 
 std::string PictureFolder::csv() { return calibrate::measure_csv(all()); }
+
+std::string PictureFolder::workbook() {
+  const std::vector<calibrate::MeasuredPicture> pictures = all();
+  return calibrate::measure_workbook(pictures);
+}
 
 std::string PictureFolder::report() {
   std::vector<calibrate::report::MeasuredPhotograph> shown;

@@ -46,6 +46,10 @@ class PictureFolder {
   /// the file and with what is saved beside it. Copies and subfolders are not looked for.
   Json list() const;
 
+  const std::filesystem::path& folder() const { return folder_; }
+  /// The file of that name in the folder; no other name leads anywhere.
+  std::filesystem::path path_of(const std::string& file) const;
+
   /// As `repose measure --json` has it, in `measured`; with `version`, `told`, `marks`
   /// (told_json.h), `command` and, of a refused picture, `proposed`, what the proposal would make
   /// of `told`. As text, which is kept: of a thousand pictures the outlines are long.
@@ -74,15 +78,15 @@ class PictureFolder {
   /// All files as repeats, as `repose measure --summary` has it.
   std::string set();
   std::string csv();
+  std::string workbook();
   std::string report();
 
  private:
   struct Kept;
   using Opened = std::shared_ptr<const calibrate::OpenedPicture>;
 
-  std::filesystem::path path_of(const std::string& file) const;
   void require_unchanged(const std::filesystem::path& path, const std::string& version) const;
-  std::shared_ptr<Kept> kept(const std::string& file);
+  std::shared_ptr<Kept> kept(const std::filesystem::path& path);
   Opened opened(const std::filesystem::path& path, const std::string& version,
                 const vision::PictureSettings& told);
   calibrate::MeasuredAgain again(const std::string& file);

@@ -15,6 +15,7 @@
 #include "studio/access.h"
 #include "studio/http.h"
 #include "studio/picture_folder.h"
+#include "studio/set_comparisons.h"
 #include "studio/told_json.h"
 
 namespace repose::studio {
@@ -107,6 +108,7 @@ struct Server::Parts {
   explicit Parts(const std::filesystem::path& folder) : pictures(folder) {}
 
   PictureFolder pictures;
+  SetComparisons comparisons{pictures};
   httplib::Server http;
   std::unique_ptr<Access> access;
   std::string address;
@@ -115,6 +117,7 @@ struct Server::Parts {
   void serve_page();
   void serve_pictures();
   void serve_files();
+  void serve_comparisons();
 };
 
 /// Nobody is answered but the page; and no page of others can hold this one, or read what it loads.
@@ -218,7 +221,7 @@ void Server::Parts::serve_pictures() {
 
 /// GET /api/picture?file=NAME&side=PX&turns=N   picture(), turned by N quarters
 /// GET /api/overlay?file=NAME                   overlay()
-/// GET /files/angles.csv, /files/photos.html    csv(), report()
+/// GET /files/angles.csv, /files/angles.xlsx, /files/photos.html    csv(), workbook(), report()
 void Server::Parts::serve_files() {
   http.Get("/api/picture", answering([this](const Request& request, Response& response) {
              constexpr int kSmallest_px = 16, kLargest_px = 4096, kUsual_px = 1600;
@@ -232,8 +235,34 @@ void Server::Parts::serve_files() {
   http.Get("/files/angles.csv", answering([this](const Request&, Response& response) {
              send_file(response, "angles.csv", pictures.csv(), "text/csv; charset=utf-8");
            }));
+  http.Get("/files/angles.xlsx", answering([this](const Request&, Response& response) {
+             send_file(response, "angles.xlsx", pictures.workbook(),
+                       "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet");
+           }));
   http.Get("/files/photos.html", answering([this](const Request&, Response& response) {
              send_file(response, "photos.html", pictures.report(), "text/html; charset=utf-8");
+           }));
+}
+
+/// GET /api/sets                                 folders(), and what is compared where nothing is
+/// said POST /api/comparison                          compare() what is sent GET
+/// /files/comparison.png?number=N&width=PX   figure() GET /files/comparison.json?number=N json()
+void Server::Parts::serve_comparisons() {
+  constexpr int kMost = 1 << 30;
+  http.Get("/api/sets", json_of([this](const Request&) { return comparisons.folders(); }));
+  http.Post("/api/comparison", json_of([this](const Request& request) {
+              return comparisons.compare(json_in(request));
+            }));
+  http.Get("/files/comparison.png", answering([this](const Request& request, Response& response) {
+             constexpr int kSmallest_px = 200, kLargest_px = 5600;
+             const int width_px =
+                 number_in(request, "width", kSmallest_px, kLargest_px, vision::kSetsFigure_px);
+             send(response, comparisons.figure(number_in(request, "number", 0, kMost, 0), width_px),
+                  "image/png");
+           }));
+  http.Get("/files/comparison.json", answering([this](const Request& request, Response& response) {
+             send_file(response, "comparison.json",
+                       comparisons.json(number_in(request, "number", 0, kMost, 0)), kJson);
            }));
 }
 
@@ -262,6 +291,7 @@ Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   parts.serve_page();
   parts.serve_pictures();
   parts.serve_files();
+  parts.serve_comparisons();
 }
 
 Server::~Server() = default;

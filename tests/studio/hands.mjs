@@ -40,7 +40,7 @@ export const endAll = async () => {
 
 export const open = async (browser, address) => {
   const {page, errors} = await openWatched(browser, address,
-    {width: 1280, patience_ms: kPatience_ms, isOwn: (url) => url.startsWith(new URL(address).origin)});
+    {width: 1280, patience_ms: kPatience_ms, isOwn: (url) => url.replace(/^blob:/, '').startsWith(new URL(address).origin)});
   await page.waitForSelector('header');
   return {page, errors};
 };

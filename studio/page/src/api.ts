@@ -104,6 +104,35 @@ export interface SetSummary extends Mean {
   outliers: {file: string; angle_deg: number; score: number; counted: boolean}[];
 }
 
+// What a comparison is of: a folder within this one, or files of it.
+export type SetOfHeaps = {folder: string} | {files: string[]};
+
+export interface HeapFolders {
+  folders: {folder: string; kind: string; heaps: number}[];
+  margin_deg: number;
+}
+
+// As `repose compare --json` has it of two sets.
+export interface Comparison {
+  sets: {name: string; n: number; mean_deg: number | null; sd_deg: number | null; interval_deg: [number, number] | null;
+    heaps: {file: string; angle_deg: number | null}[]}[];
+  angle_difference_deg: number | null;
+  angle_difference_interval: [number, number] | null;
+  verdict: string;
+  margin_deg: number;
+  iou: number | null;
+  heaps_to_tell: number | null;
+  warnings: {code: string; message: string}[];
+}
+
+export interface Compared {
+  number: number;
+  comparison: Comparison;
+  has_figure: boolean;
+  notes: string[];
+  command: string;
+}
+
 const asked = async <T>(address: string, options: RequestInit = {}): Promise<T> => {
   let response: Response;
   try {
@@ -139,5 +168,11 @@ export const api = {
   // The version makes the browser fetch a picture again that has changed.
   picture: (entry: FileEntry, side: number, rotate_deg: number) =>
     `${versioned('/api/picture', entry.file, entry.version)}&side=${side}&turns=${rotate_deg / 90}`,
+  sets: () => asked<HeapFolders>('/api/sets'),
+  compare: (first: SetOfHeaps, second: SetOfHeaps, margin_deg: number) =>
+    asked<Compared>('/api/comparison', {method: 'POST', body: JSON.stringify({first, second, margin_deg})}),
+  // As `repose compare --overlay` draws it.
+  comparisonFigure: (number: number, width: number) => `/files/comparison.png?number=${number}&width=${width}`,
+  comparisonNumbers: (number: number) => `/files/comparison.json?number=${number}`,
   overlay: (file: string) => named('/api/overlay', file),
 };

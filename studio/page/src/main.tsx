@@ -82,8 +82,8 @@ const App = () => {
           </p>
         </div>
       )}
-      {files.length === 0 && <main class="empty"><p>There are no pictures in this folder yet. Drop some onto this page, or add them above.</p></main>}
-      {files.length > 0 && is_set && <main><SetView folder={folder} files={files} answers={answers} choose={choose} /></main>}
+      {files.length === 0 && !is_set && <main class="empty"><p>There are no pictures in this folder yet. Drop some onto this page, or add them above.</p></main>}
+      {is_set && <main><SetView folder={folder} files={files} answers={answers} choose={choose} /></main>}
       {entry && !is_set && (
         <main class="pictures">
           <Files files={files} answers={answers} errors={errors} chosen={entry.file} choose={choose} />

@@ -9,7 +9,7 @@ const SideRow = ({name, side}: {name: string; side: Side | null}) => side && (
   <tr><th scope="row">{name}</th><td>{side.angle_deg === null ? side.status : angleText(side)}</td></tr>
 );
 
-const Command = ({text}: {text: string}) => {
+export const Command = ({text}: {text: string}) => {
   const [is_copied, setCopied] = useState(false);
   const copy = async () => {
     await navigator.clipboard.writeText(text);

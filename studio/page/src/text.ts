@@ -1,5 +1,5 @@
 // How results are said.
-import type {Folder, Mean, Measured} from './api';
+import type {Comparison, Folder, Mean, Measured} from './api';
 
 export const angleText = (measured: Pick<Measured, 'angle_deg' | 'uncertainty_deg'>) => {
   if (measured.angle_deg === null) return 'no angle';
@@ -12,6 +12,12 @@ export const wayText = ({definition, window}: Measured, definitions: Folder['def
   const known = definitions.find(({name}) => name === definition);
   if (known) return `${known.name}: ${known.description}`;
   return window && `${Math.round(100 * window[0])}–${Math.round(100 * window[1])} % of the height`;
+};
+
+export const differenceText = ({angle_difference_deg, angle_difference_interval, margin_deg}: Comparison) => {
+  if (angle_difference_deg === null || !angle_difference_interval) return 'no difference: that needs two heaps with an angle in one of the sets';
+  const [low, high] = angle_difference_interval;
+  return `first − second ${angle_difference_deg.toFixed(2)}°, 95 % interval ${low.toFixed(2)} … ${high.toFixed(2)}° (Welch); below ${margin_deg}° negligible`;
 };
 
 export const lengthText = (value: number | null, half: number | null) =>
