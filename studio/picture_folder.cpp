@@ -248,9 +248,9 @@ Json PictureFolder::measured_as(const std::string& file, const Json& told) {
   if (!is_photograph(path)) {
     throw base::InputError({.where = file, .value = "nothing can be told of it here"});
   }
-  const vision::PictureSettings saved = vision::with_saved_hints({}, path);
-  const vision::PictureSettings settings = with_told(saved, told);
   const std::string version = version_of(path);
+  const vision::PictureSettings saved = vision::with_saved_hints({}, path);
+  const vision::PictureSettings settings = settings_of(path, version, told);
   return answer_of(
       calibrate::measure_opened(*opened(path, version, saved), settings, false, kTools), version);
 }
@@ -264,7 +264,10 @@ std::string PictureFolder::save(const std::string& file, const Json& told,
   {
     const std::lock_guard lock(saving_);
     require_unchanged(path, version);
-    vision::save_hints(with_told(vision::with_saved_hints({}, path), told), path);
+    vision::PictureSettings settings = settings_of(path, version, told);
+    vision::Hints& hints = settings.measuring.hints;
+    if (hints.mask_file == vision::mask_file_of(path)) vision::save_mask(hints, path);
+    vision::save_hints(settings, path);
   }
   return measured(file);
 }
@@ -276,11 +279,39 @@ std::string PictureFolder::forget(const std::string& file, const std::string& ve
     require_unchanged(path, version);
     std::error_code error;
     fs::remove(hints, error);
+    if (!error) fs::remove(vision::mask_file_of(path), error);
     if (error) {
       base::refuse(hints, "it cannot be removed: " + error.message(), "see who may write there.");
     }
   }
   return measured(file);
+}
+
+vision::PictureSettings PictureFolder::settings_of(const fs::path& path, const std::string& version,
+                                                   const Json& told) {
+  const vision::PictureSettings saved = vision::with_saved_hints({}, path);
+  vision::PictureSettings settings = with_told(saved, told);
+  vision::Hints& hints = settings.measuring.hints;
+  // A saved mask lies on the picture as it was turned then.
+  constexpr int kFull_deg = 360;
+  const int turn_deg = hints.turn_deg - saved.measuring.hints.turn_deg + kFull_deg;
+  hints.mask = vision::turned(std::move(hints.mask), turn_deg % kFull_deg);
+  const std::vector<vision::BrushStroke> strokes = painted_in(told);
+  if (strokes.empty()) return settings;
+  const vision::Picture& picture = opened(path, version, saved)->picture;
+  const bool is_on_its_side = hints.turn_deg % 180 != 0;
+  hints.mask =
+      vision::painted(std::move(hints.mask), is_on_its_side ? picture.height : picture.width,
+                      is_on_its_side ? picture.width : picture.height, strokes);
+  hints.mask_file = vision::mask_file_of(path);
+  return settings;
+}
+
+PictureFolder::Bytes PictureFolder::mask(const std::string& file) {
+  const fs::path path = path_of(file);
+  const vision::Picture mask = vision::with_saved_hints({}, path).measuring.hints.mask;
+  if (mask.empty()) throw base::InputError({.where = file, .value = "nothing is painted over it"});
+  return vision::png_of(mask);
 }
 
 calibrate::MeasuredAgain PictureFolder::again(const std::string& file) {

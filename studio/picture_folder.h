@@ -68,6 +68,8 @@ class PictureFolder {
   Bytes picture(const std::string& file, int side_px, int turn_deg);
   /// A JPEG with what was measured drawn in, as `repose measure --overlay` draws it.
   Bytes overlay(const std::string& file);
+  /// A PNG of what is saved as painted over the picture: white is heap, black is not, grey is open.
+  Bytes mask(const std::string& file);
 
   /// Puts a file into the folder, under another name where its own is taken; none is replaced.
   /// @returns the name
@@ -89,6 +91,9 @@ class PictureFolder {
   std::shared_ptr<Kept> kept(const std::filesystem::path& path);
   Opened opened(const std::filesystem::path& path, const std::string& version,
                 const vision::PictureSettings& told);
+  /// What is told, with what is painted in its mask.
+  vision::PictureSettings settings_of(const std::filesystem::path& path, const std::string& version,
+                                      const Json& told);
   calibrate::MeasuredAgain again(const std::string& file);
   std::vector<calibrate::MeasuredPicture> all();
 

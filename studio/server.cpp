@@ -221,6 +221,7 @@ void Server::Parts::serve_pictures() {
 
 /// GET /api/picture?file=NAME&side=PX&turns=N   picture(), turned by N quarters
 /// GET /api/overlay?file=NAME                   overlay()
+/// GET /api/mask?file=NAME                      mask()
 /// GET /files/angles.csv, /files/angles.xlsx, /files/photos.html    csv(), workbook(), report()
 void Server::Parts::serve_files() {
   http.Get("/api/picture", answering([this](const Request& request, Response& response) {
@@ -231,6 +232,9 @@ void Server::Parts::serve_files() {
            }));
   http.Get("/api/overlay", answering([this](const Request& request, Response& response) {
              send(response, pictures.overlay(file_in(request)), "image/jpeg");
+           }));
+  http.Get("/api/mask", answering([this](const Request& request, Response& response) {
+             send(response, pictures.mask(file_in(request)), "image/png");
            }));
   http.Get("/files/angles.csv", answering([this](const Request&, Response& response) {
              send_file(response, "angles.csv", pictures.csv(), "text/csv; charset=utf-8");

@@ -180,7 +180,9 @@ Json told_json(const vision::PictureSettings& told) {
             {"board", told.scale.finds_board},
             {"pitch_deg", degrees(measuring.camera_pitch_rad)},
             {"window", {measuring.window_from, measuring.window_to}},
-            {"definition", measuring.definition.empty() ? Json() : Json(measuring.definition)}};
+            {"definition", measuring.definition.empty() ? Json() : Json(measuring.definition)},
+            {"has_mask", !hints.mask_file.empty()},
+            {"painted", Json::array()}};
   if (const auto& bar = told.scale.scale) {
     json["scale"] = {{"line", line_json(bar->line)}, {"length_mm", bar->length_mm}};
   }
@@ -210,6 +212,48 @@ vision::PictureSettings with_told(vision::PictureSettings settings, const Json& 
   faults.add_all(measuring.problems());
   faults.throw_if_any();
   return settings;
+}
+
+namespace {
+
+/// None: it is no stroke; faults of its path are noted.
+std::optional<vision::BrushStroke> stroke_of(const Json& json, base::Faults& faults) {
+  using Says = vision::BrushStroke::Says;
+  static const std::map<std::string, Says> kSays{
+      {"heap", Says::heap}, {"no_heap", Says::no_heap}, {"nothing", Says::nothing}};
+  constexpr double kWidest_px = 1e4;
+  if (!json.is_object()) return std::nullopt;
+  const Reader reader(json, faults);
+  const std::string says = reader.text("says", "heap, no_heap or nothing").value_or("");
+  const double width_px = reader.number("width", "a number of pixels").value_or(0);
+  if (!kSays.contains(says) || !(width_px > 0 && width_px < kWidest_px)) return std::nullopt;
+  vision::BrushStroke stroke{.says = kSays.at(says), .width_px = width_px, .path = {}};
+  for (const auto& place : reader.lists("path", 2, kPlacesRule)) {
+    stroke.path.push_back({place[0], place[1]});
+  }
+  return stroke;
+}
+
+}  // namespace
+
+std::vector<vision::BrushStroke> painted_in(const Json& told) {
+  constexpr const char* kRule =
+      "strokes with says (heap, no_heap or nothing), a width in pixels above 0 and a path";
+  std::vector<vision::BrushStroke> strokes;
+  base::Faults faults;
+  const Reader reader(told, faults);
+  if (!reader.has("painted")) return strokes;
+  if (!told.at("painted").is_array()) reader.refuse("painted", kRule);
+  for (const Json& json : told.at("painted").is_array() ? told.at("painted") : Json::array()) {
+    auto stroke = stroke_of(json, faults);
+    if (!stroke) {
+      reader.refuse("painted", kRule);
+      break;
+    }
+    strokes.push_back(*std::move(stroke));
+  }
+  faults.throw_if_any();
+  return strokes;
 }
 
 Json marks_json(const calibrate::MeasuredAgain& again) {

@@ -53,7 +53,20 @@ export const drop = async (page, files) => {
 
 export const textOf = (page, selector) => page.$eval(selector, (element) => element.textContent);
 export const button = async (page, name) => (await page.$$(`::-p-xpath(//button[normalize-space()='${name}'])`))[0];
-export const click = async (page, name) => { await (await button(page, name)).click(); };
+// After a change of the window's size things still move.
+const atRest = (element) => element.evaluate(async (moved) => {
+  for (let last = '', same = 0; same < 3; ) {
+    await new Promise(requestAnimationFrame);
+    const {x, y} = moved.getBoundingClientRect(), now = `${x} ${y}`;
+    same = now === last ? same + 1 : 0;
+    last = now;
+  }
+});
+export const click = async (page, name) => {
+  const found = await button(page, name);
+  await atRest(found);
+  await found.click();
+};
 export const isOff = async (page, name) => (await button(page, name)).evaluate(({disabled}) => disabled);
 export const until = (page, test, ...values) => page.waitForFunction(test, {}, ...values);
 export const untilMeasured = (page, count) => until(page, (wanted) => document.querySelectorAll('.files .badge').length === wanted, count);

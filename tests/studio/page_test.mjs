@@ -47,6 +47,34 @@ const correctByHand = async (page, folder, name) => {
   assert.equal(existsSync(join(folder, `${name}.repose.toml`)), true);
 };
 
+// A brush over what lies beside the heap and over the heap; undone, painted again, saved as a mask.
+const paint = async (page, folder, name) => {
+  await choose(page, name);
+  const [width, height] = await page.$eval('.viewer image', (image) => [Number(image.getAttribute('width')), Number(image.getAttribute('height'))]);
+  await click(page, 'Paint');
+  await click(page, 'not heap');
+  await drag(page, [width * .1, height * .15], [width * .8, height * .2]);
+  await page.waitForSelector('.painted polyline.no_heap');
+  await click(page, 'heap');
+  await drag(page, [width * .45, height * .58], [width * .6, height * .58]);
+  await page.waitForSelector('.painted polyline.heap');
+  await until(page, () => document.querySelector('.command code').textContent.includes('--mask'));
+  await click(page, 'Undo');
+  await until(page, () => !document.querySelector('.painted polyline.heap') && document.querySelector('.painted polyline.no_heap'));
+  await drag(page, [width * .45, height * .58], [width * .6, height * .58]);
+  await page.waitForSelector('.painted polyline.heap');
+  await lookAt(page, 'paint', pictures);
+  await click(page, 'Save');
+  await page.waitForSelector('.painted .mask');
+  assert.ok(existsSync(join(folder, `${name}.repose.mask`)));
+  assert.match(readFileSync(join(folder, `${name}.repose.toml`), 'utf8'), /mask = /);
+  assert.match(await textOf(page, '.command code'), /--mask hazelnuts/);
+  await lookAt(page, 'painted', pictures);
+  await click(page, 'Start again');
+  await until(page, () => !document.querySelector('.painted .mask'));
+  assert.equal(existsSync(join(folder, `${name}.repose.mask`)), false);
+};
+
 const forgetByKeys = async (page, folder, name) => {
   await (await button(page, 'Start again')).focus();
   await page.keyboard.press('Enter');
@@ -266,6 +294,7 @@ const sit = async (browser, folder) => {
   await zoom(page);
   await measureALength(page);
   await forgetByKeys(page, folder, files[1]);
+  await paint(page, folder, files[4]);
   await lookAtSet(page, folder, files.length);
   await lookAt(page, 'set', pictures);
   await compareSets(page, folder, files);

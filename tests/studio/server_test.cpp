@@ -20,6 +20,7 @@
 #include "tests/support/hollow_conditions.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/hints/hint_file.h"
+#include "vision/hints/painted_mask.h"
 #include "vision/picture/picture.h"
 
 namespace repose::studio {
@@ -170,6 +171,69 @@ TEST_F(StudioServer, WhatAnotherWindowHasSavedIsNotWrittenOver) {
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_EQ(kept.front().x, 1);
   EXPECT_EQ(save(version())->status, 200);
+}
+
+TEST_F(StudioServer, WhatIsPaintedBecomesAMaskThatTheCommandLineReads) {
+  const std::filesystem::path picture = folder_.path() / "heap a.png";
+  Json told = get("/api/measured?file=heap%20a.png").at("told");
+  EXPECT_EQ(told.at("has_mask"), false);
+  const vision::Segment ground = heap().ground;
+  const double middle = (ground.from.x + ground.to.x) / 2, width = 21;
+  told["painted"] = {
+      {{"says", "heap"},
+       {"width", width},
+       {"path", {{middle - 30, ground.from.y - 20}, {middle + 30, ground.from.y - 20}}}},
+      {{"says", "no_heap"}, {"width", width}, {"path", {{12, 12}}}},
+      {{"says", "nothing"}, {"width", 5}, {"path", {{middle, ground.from.y - 20}}}}};
+  const auto again =
+      client_->Post("/api/measure?file=heap%20a.png", told.dump(), "application/json");
+  ASSERT_EQ(again->status, 200) << again->body;
+  EXPECT_THAT(again->body, HasSubstr("--mask"));
+  EXPECT_FALSE(std::filesystem::exists(vision::mask_file_of(picture)));
+  ASSERT_EQ(
+      client_->Put("/api/hints?file=heap%20a.png" + version(), told.dump(), "application/json")
+          ->status,
+      200);
+  const vision::Hints hints = vision::with_saved_hints({}, picture).measuring.hints;
+  EXPECT_EQ(hints.mask_file, vision::mask_file_of(picture));
+  ASSERT_EQ(hints.mask.width, heap().picture.width);
+  const auto level = [&](double x, double y) {
+    const auto at = static_cast<std::size_t>(y) * hints.mask.width + static_cast<std::size_t>(x);
+    return int{hints.mask.bgr[3 * at]};
+  };
+  EXPECT_EQ(level(middle - 25, ground.from.y - 20), 255);
+  EXPECT_EQ(level(12, 12), 0);
+  EXPECT_EQ(level(middle, ground.from.y - 20), 128);
+  EXPECT_EQ(level(12, 60), 128);
+  // The mask is no heap of the folder, and goes with what else is saved.
+  EXPECT_EQ(get("/api/folder").at("files").size(), 1U);
+  const Json saved = get("/api/measured?file=heap%20a.png");
+  EXPECT_EQ(saved.at("told").at("has_mask"), true);
+  EXPECT_EQ(Json::parse(again->body).at("measured").at("angle_deg"),
+            saved.at("measured").at("angle_deg"));
+  EXPECT_EQ(client_->Get("/api/mask?file=heap%20a.png")->get_header_value("Content-Type"),
+            "image/png");
+  EXPECT_EQ(client_->Delete("/api/hints?file=heap%20a.png" + version())->status, 200);
+  EXPECT_FALSE(std::filesystem::exists(vision::mask_file_of(picture)));
+  EXPECT_EQ(client_->Get("/api/mask?file=heap%20a.png")->status, 400);
+}
+
+TEST_F(StudioServer, AMaskTurnsWithItsPicture) {
+  const std::filesystem::path picture = folder_.path() / "heap a.png";
+  Json told = get("/api/measured?file=heap%20a.png").at("told");
+  told["rotate_deg"] = 90;
+  told["painted"] = {{{"says", "no_heap"}, {"width", 9}, {"path", {{10, 30}}}}};
+  ASSERT_EQ(
+      client_->Put("/api/hints?file=heap%20a.png" + version(), told.dump(), "application/json")
+          ->status,
+      200);
+  // Turned clockwise by 90 degrees, (10, 30) comes from 30 to the right and 10 from below.
+  const vision::Picture mask = vision::read_picture(vision::mask_file_of(picture));
+  ASSERT_EQ(mask.width, heap().picture.width);
+  const auto at = static_cast<std::size_t>(mask.height - 11) * mask.width + 30;
+  EXPECT_EQ(mask.bgr[3 * at], 0);
+  const vision::Picture turned = vision::with_saved_hints({}, picture).measuring.hints.mask;
+  EXPECT_EQ(turned.bgr[3 * (std::size_t{30} * turned.width + 10)], 0);
 }
 
 TEST_F(StudioServer, AFullDiskLeavesAllAsItWasAndIsSaid) {

@@ -5,6 +5,13 @@ export type Box = [number, number, number, number];
 export type Line = [number, number, number, number];
 export type Place = [number, number];
 
+// A line with a round brush.
+export interface BrushStroke {
+  says: 'heap' | 'no_heap' | 'nothing';
+  width: number;
+  path: Place[];
+}
+
 // What a person has said of a picture; places in the pixels of the turned picture.
 export interface Told {
   rotate_deg: number;
@@ -19,6 +26,8 @@ export interface Told {
   pitch_deg: number | null;
   window: [number, number];
   definition: string | null;
+  has_mask: boolean;  // saved; what is painted comes over it
+  painted: BrushStroke[];
 }
 
 export interface Side {
@@ -174,5 +183,6 @@ export const api = {
   // As `repose compare --overlay` draws it.
   comparisonFigure: (number: number, width: number) => `/files/comparison.png?number=${number}&width=${width}`,
   comparisonNumbers: (number: number) => `/files/comparison.json?number=${number}`,
+  mask: (file: string, version: string) => versioned('/api/mask', file, version),
   overlay: (file: string) => named('/api/overlay', file),
 };

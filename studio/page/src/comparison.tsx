@@ -14,7 +14,7 @@ const Numbers = ({comparison}: {comparison: Comparison}) => (
     {comparison.heaps_to_tell !== null &&
       <p class="hint">If the difference stays as it is, {comparison.heaps_to_tell} heaps in each set would decide.</p>}
     {comparison.sets.map((set, k) => (
-      <p><strong>{k === 0 ? 'First' : 'Second'}</strong>, {set.name}: {meanText(set)}</p>
+      <p><strong>{k === 0 ? 'First set' : 'Second set'}</strong>{set.name.includes('/') && ` (${set.name})`}: {meanText(set)}</p>
     ))}
     {comparison.warnings.map(({code, message}) => <p class="warning" key={code}>{message}</p>)}
   </>

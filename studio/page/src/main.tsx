@@ -8,7 +8,7 @@ import {useFolder} from './folder';
 import {Result} from './result';
 import {SetView} from './set';
 import {Fields, Toolbar} from './tools';
-import type {Tool} from './viewer';
+import type {Brush, Tool} from './viewer';
 import {Viewer} from './viewer';
 
 const App = () => {
@@ -16,6 +16,7 @@ const App = () => {
   const {folder, answers, errors, marks, trouble, setTrouble, look, take} = useFolder(chosen);
   const [is_set, setIsSet] = useState(false);
   const [tool, setTool] = useState<Tool>('move');
+  const [brush, setBrush] = useState<Brush>({says: 'heap', width: 0.04});
   const [is_over, setIsOver] = useState(false);
   const files = folder?.files ?? [];
   const entry = files.find(({file}) => file === chosen) ?? files[0] ?? null;
@@ -89,9 +90,9 @@ const App = () => {
           <Files files={files} answers={answers} errors={errors} chosen={entry.file} choose={choose} />
           <section class="picture" aria-label={entry.file}>
             <h2>{entry.file}</h2>
-            {told && is_told_here && <Toolbar key={entry.file} told={told} tool={tool} folder={folder} choose={setTool} tell={tell} />}
+            {told && is_told_here && <Toolbar key={entry.file} told={told} tool={tool} folder={folder} choose={setTool} tell={tell} brush={brush} setBrush={setBrush} />}
             {answer && !is_told_here && told && <p class="hint">It is measured with a camera file: correct it on the command line.</p>}
-            {shown ? <Viewer entry={entry} marks={shown.marks} told={told} tool={is_told_here ? tool : 'move'} tell={tell} />
+            {shown ? <Viewer entry={entry} marks={shown.marks} told={told} tool={is_told_here ? tool : 'move'} brush={brush} tell={tell} />
               : <p role="status">{errors.get(entry.file) ?? 'measuring …'}</p>}
           </section>
           {shown && (

@@ -17,7 +17,8 @@ export const wayText = ({definition, window}: Measured, definitions: Folder['def
 export const differenceText = ({angle_difference_deg, angle_difference_interval, margin_deg}: Comparison) => {
   if (angle_difference_deg === null || !angle_difference_interval) return 'no difference: that needs two heaps with an angle in one of the sets';
   const [low, high] = angle_difference_interval;
-  return `first − second ${angle_difference_deg.toFixed(2)}°, 95 % interval ${low.toFixed(2)} … ${high.toFixed(2)}° (Welch); below ${margin_deg}° negligible`;
+  const signed = (angle: number) => angle.toFixed(2).replace('-', '−');
+  return `first − second: ${signed(angle_difference_deg)}°, 95 % interval ${signed(low)} … ${signed(high)}° (Welch); below ${margin_deg}° negligible`;
 };
 
 export const lengthText = (value: number | null, half: number | null) =>
