@@ -403,11 +403,7 @@ std::string PictureFolder::report() {
   const std::vector<calibrate::MeasuredPicture> pictures = all();
   for (const calibrate::MeasuredPicture& picture : pictures) {
     if (!picture.copy_of.empty()) continue;
-    calibrate::report::MeasuredPhotograph photograph{
-        .file = picture.file,
-        .error = picture.outcome == calibrate::Outcome::measured ? "" : picture.error,
-        .angle = picture.angle,
-        .overlay = picture.overlay};
+    calibrate::report::MeasuredPhotograph photograph = calibrate::photograph_of(picture);
     if (is_photograph(picture.file) && photograph.error.empty()) {
       const calibrate::MeasuredAgain drawn = again(fs::path(picture.file).filename().string());
       photograph.overlay = calibrate::report::overlay_for_page(drawn.picture, drawn.measured.angle,

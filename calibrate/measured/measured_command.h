@@ -14,6 +14,9 @@ std::string shell_word(const std::string& text);
 /// The command line that measures the file with all that was said of it, as a shell takes it.
 std::string measure_command(const MeasuredPicture& picture);
 
+/// For the report, with its command.
+report::MeasuredPhotograph photograph_of(const MeasuredPicture& picture);
+
 /// What was said of a picture, with what is proposed for it.
 vision::PictureSettings with_proposal(vision::PictureSettings told,
                                       const vision::Proposal& proposal);

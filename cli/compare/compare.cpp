@@ -37,10 +37,11 @@ namespace {
 /// Carries out `repose compare` where one of both is more than one picture.
 ExitCode compare_sets(const ComparePlan& plan, const std::atomic<bool>& is_interrupted) {
   std::optional<Progress> bar;
+  const calibrate::SetsPlan& sets = plan;
   const calibrate::ComparedSets compared = calibrate::compare_sets_of(
-      calibrate::SetsPlan(plan), {.begins = [&](std::size_t pictures) { bar.emplace(pictures); },
-                                  .advances = [&] { bar->advance(); },
-                                  .is_stopped = [&] { return is_interrupted.load(); }});
+      sets, {.begins = [&](std::size_t pictures) { bar.emplace(pictures); },
+             .advances = [&] { bar->advance(); },
+             .is_stopped = [&] { return is_interrupted.load(); }});
   bar.reset();
   if (compared.was_stopped) {
     print_line("interrupted, no results were written");
