@@ -15,6 +15,9 @@
 #include <sys/resource.h>
 
 #include "base/input_error.h"
+#include "base/units.h"
+#include "calibrate/compared/compared_json.h"
+#include "calibrate/compared/compared_sets.h"
 #include "studio/http.h"
 #include "tests/support/heap_picture.h"
 #include "tests/support/hollow_conditions.h"
@@ -353,6 +356,44 @@ TEST_F(StudioServer, TheSetIsWhatTheCommandLineSays) {
   EXPECT_THAT(table->body, StartsWith("file,status,angle_deg"));
   EXPECT_THAT(table->body, HasSubstr("heap a.png"));
   EXPECT_THAT(client_->Get("/files/photos.html")->body, HasSubstr("heap a.png"));
+}
+
+TEST_F(StudioServer, SetsAreComparedAsTheLibraryComparesThem) {
+  const std::filesystem::path dense = folder_.path() / "dense";
+  std::filesystem::create_directory(dense);
+  std::filesystem::create_directory(folder_.path() / "empty");
+  for (const int power : {1, 3}) {
+    vision::write_picture(dense / fmt::format("{}.png", power),
+                          testing::draw_heap(testing::hollow_power(power)).picture);
+  }
+  const Json sets = get("/api/sets");
+  ASSERT_EQ(sets.at("folders").size(), 1U);
+  EXPECT_EQ(sets.at("folders").at(0),
+            Json({{"folder", "dense"}, {"kind", "pictures"}, {"heaps", 2}}));
+  const auto compare = [&](const Json& first, const Json& second) {
+    const Json asked{{"first", first}, {"second", second}, {"margin_deg", 3}};
+    return client_->Post("/api/comparison", asked.dump(), "application/json");
+  };
+  const auto answered = compare({{"files", {"heap a.png"}}}, {{"folder", "dense"}});
+  ASSERT_EQ(answered->status, 200) << answered->body;
+  const Json answer = Json::parse(answered->body);
+  calibrate::SetsPlan plan;
+  plan.sources[0] = {.name = "first", .files = {folder_.path() / "heap a.png"}, .is_file = false};
+  plan.sources[1] = {
+      .name = dense.string(), .files = {dense / "1.png", dense / "3.png"}, .is_file = false};
+  plan.comparing.margin_rad = 3 * kDegree;
+  const calibrate::ComparedSets compared = calibrate::compare_sets_of(plan, {});
+  EXPECT_EQ(answer.at("comparison"), Json::parse(calibrate::sets_json(compared)));
+  EXPECT_THAT(answer.at("command"), HasSubstr("--margin-deg 3"));
+  const std::string number = "number=" + answer.at("number").dump();
+  const auto png = vision::png_of(calibrate::figure_of(compared, 2100));
+  EXPECT_EQ(client_->Get("/files/comparison.png?width=2100&" + number)->body,
+            std::string(png.begin(), png.end()));
+  for (const Json& wrong : {Json(), Json({{"files", Json::array()}}), Json({{"files", {"no.png"}}}),
+                            Json({{"folder", ".."}}), Json({{"folder", "empty"}})}) {
+    EXPECT_EQ(compare(wrong, {{"folder", "dense"}})->status, 400) << wrong;
+  }
+  EXPECT_EQ(client_->Get("/files/comparison.png?number=99")->status, 400);
 }
 
 TEST_F(StudioServer, StrangersAreNotAnswered) {
