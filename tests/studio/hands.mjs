@@ -72,7 +72,9 @@ export const until = (page, test, ...values) => page.waitForFunction(test, {}, .
 export const untilMeasured = (page, count) => until(page, (wanted) => document.querySelectorAll('.files .badge').length === wanted, count);
 export const angle = (page) => textOf(page, '.result .angle');
 export const choose = async (page, name) => {
-  await (await page.$(`::-p-xpath(//nav//button[contains(., '${name}')])`)).click();
+  const found = await page.$(`::-p-xpath(//nav//button[contains(., '${name}')])`);
+  await atRest(found);
+  await found.click();
   await until(page, (wanted) => document.querySelector('.picture h2').textContent === wanted, name);
   await page.waitForSelector('.viewer svg .flank');
 };
@@ -84,6 +86,7 @@ export const onScreen = (page, x, y) => page.$eval('.viewer svg', (svg, px, py) 
 }, x, y);
 
 export const drag = async (page, from, to) => {
+  await atRest(await page.$('.viewer svg'));
   await page.mouse.move(...await onScreen(page, ...from));
   await page.mouse.down();
   await page.mouse.move(...await onScreen(page, ...to), {steps: 6});
