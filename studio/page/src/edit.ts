@@ -72,6 +72,6 @@ export const useEdit = (entry: FileEntry | null, answer: Answer | undefined, set
   const save = () => void write((version) => api.save(entry!.file, current!.told, version));
   const forget = () => void write((version) => api.forget(entry!.file, version));
   const drop = () => { waiting.current = null; setEdit(null); setTrouble(''); };
-  const keep = () => { setEdit((before) => before && {...before, version: entry!.version}); setTrouble(''); };
-  return {current: current && {...current, is_behind: current.version !== entry!.version}, tell, undo, save, forget, drop, keep};
+  const keep = () => { setEdit((before) => before && {...before, version: answer!.version}); setTrouble(''); };
+  return {current: current && {...current, is_behind: !!answer && current.version !== answer.version}, tell, undo, save, forget, drop, keep};
 };
