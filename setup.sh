@@ -23,7 +23,7 @@ needed="g++ cmake ninja-build pkg-config
   libavformat-dev libavcodec-dev libavutil-dev libswscale-dev
   libjpeg-dev libpng-dev libtiff-dev libwebp-dev libheif-dev libexif-dev libcsv-dev
   zlib1g-dev libcairo2-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev libcpp-httplib-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev libcpp-httplib-dev libxlsxwriter-dev
   fonts-dejavu-core"
 # npm may also come from elsewhere than Debian.
 command -v npm >/dev/null || needed="$needed npm"

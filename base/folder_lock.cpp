@@ -30,7 +30,8 @@ std::string owner_of(int descriptor) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file)
+FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file,
+                       const std::string& fix)
     : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kForAll)) {
   if (descriptor_ < 0) {
     refuse(file, fmt::format("cannot be written ({})", std::generic_category().message(errno)),
@@ -41,7 +42,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesyste
   if (errno != EACCES && errno != EAGAIN) return;  // a file system that knows no locks
   const std::string owner = owner_of(descriptor_);
   ::close(descriptor_);
-  refuse(folder, owner + " is using it", "wait until it has finished, or choose another folder.");
+  refuse(folder, owner + " is using it", fix);
 }
 
 FolderLock::~FolderLock() {

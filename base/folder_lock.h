@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace repose::base {
 
@@ -9,8 +10,10 @@ namespace repose::base {
 class FolderLock {
  public:
   /// @param file  whose lock stands for the folder; it may be deeper in it
+  /// @param fix   what to do when another process has it
   /// @throws base::InputError  another process has it, which is named.
-  FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file);
+  FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file,
+             const std::string& fix = "wait until it has finished, or choose another folder.");
   ~FolderLock();
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;

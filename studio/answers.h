@@ -6,22 +6,13 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/input_error.h"
 #include "studio/http.h"
+#include "studio/json_answer.h"
 
 /// How requests are read and answered, whatever they are about.
 namespace repose::studio {
-
-using Json = nlohmann::ordered_json;
-
-inline constexpr const char* kJson = "application/json";
-
-inline std::string text_of(const Json& json) {
-  // File names need not be UTF-8, JSON must be.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 inline void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
@@ -59,6 +50,8 @@ httplib::Server::Handler answering(const Answer& answer) {
   return [answer](const httplib::Request& request, httplib::Response& response) {
     try {
       answer(request, response);
+    } catch (const ChangedMeanwhile& error) {
+      refuse(response, 409, error.what());
     } catch (const base::InputError& error) {
       refuse(response, 400, base::with_names(error.what()));
     }

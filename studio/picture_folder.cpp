@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/angle_definition.h"
 #include "base/atomic_file.h"
@@ -17,6 +18,7 @@
 #include "calibrate/measured/measured_command.h"
 #include "calibrate/measured/measured_json.h"
 #include "calibrate/measured/measured_set.h"
+#include "calibrate/measured/measured_workbook.h"
 #include "calibrate/report/measure_report.h"
 #include "studio/told_json.h"
 #include "vision/drawing/overlay.h"
@@ -30,8 +32,6 @@ namespace repose::studio {
 namespace fs = std::filesystem;
 
 namespace {
-
-using Json = PictureFolder::Json;
 
 /// What faults and advice call what can be told: the page's tools.
 constexpr std::array<base::FieldName, 9> kTools{
@@ -80,13 +80,21 @@ struct PictureFolder::Kept {
   std::mutex mutex;
   std::string version;
   calibrate::MeasuredPicture measured;
-  Json answer;
+  std::string answer;
 };
 
 PictureFolder::PictureFolder(fs::path folder) : folder_(std::move(folder)) {
+  constexpr const char* kLockFile = ".repose-studio.lock";
   std::error_code ignored;
-  if (fs::is_directory(folder_, ignored)) return;
-  base::refuse(folder_, "there is no such folder", "name the folder with your pictures.");
+  if (!fs::is_directory(folder_, ignored)) {
+    base::refuse(folder_, "there is no such folder", "name the folder with your pictures.");
+  }
+  // Where nothing can be written, nothing can be written over.
+  if (::access(folder_.c_str(), W_OK) != 0) return;
+  lock_.emplace(folder_, folder_ / kLockFile,
+                "open the address that the other repose studio has printed, or end that with "
+                "Ctrl-C in its terminal.");
+  base::remove_leftovers_in(folder_);
 }
 
 Json PictureFolder::list() const {
@@ -103,7 +111,11 @@ Json PictureFolder::list() const {
     definitions.push_back({{"name", definition.name}, {"description", definition.description}});
   }
   std::error_code ignored;
-  return {{"folder", fs::absolute(folder_, ignored).lexically_normal().string()},
+  const fs::path folder = fs::absolute(folder_ / "", ignored).lexically_normal().parent_path();
+  return {{"folder", folder.string()},
+          {"name", folder.filename().string()},
+          {"command", fmt::format("repose measure {} --csv angles.csv --report photos.html",
+                                  base::shell_word(folder_.string()))},
           {"definitions", definitions},
           {"files", files}};
 }
@@ -115,6 +127,15 @@ fs::path PictureFolder::path_of(const std::string& file) const {
   throw base::InputError({.where = base::printable(file),
                           .value = "there is no such picture in the folder",
                           .fix = "load the page again."});
+}
+
+void PictureFolder::require_unchanged(const fs::path& path, const std::string& version) const {
+  if (version == version_of(path)) return;
+  throw ChangedMeanwhile({.where = base::printable(path.filename().string()),
+                          .value =
+                              "it was changed in another window, or by a command, since you began: "
+                              "nothing was saved",
+                          .fix = "choose below which of both is to hold."});
 }
 
 PictureFolder::Opened PictureFolder::opened(const fs::path& path, const std::string& version,
@@ -140,9 +161,10 @@ PictureFolder::Opened PictureFolder::opened(const fs::path& path, const std::str
 namespace {
 
 /// What the page is told of a photograph.
-Json answer_of(const calibrate::MeasuredAgain& again) {
+Json answer_of(const calibrate::MeasuredAgain& again, const std::string& version) {
   const calibrate::MeasuredPicture& measured = again.measured;
-  Json answer{{"measured", calibrate::measured_json(measured)},
+  Json answer{{"version", version},
+              {"measured", calibrate::measured_json(measured)},
               {"told", told_json(measured.told)},
               {"marks", marks_json(again)},
               {"command", calibrate::measure_command(measured)},
@@ -154,8 +176,9 @@ Json answer_of(const calibrate::MeasuredAgain& again) {
 }
 
 /// Of a scan or a file of particles, of which nothing can be told here.
-Json answer_of(const calibrate::MeasuredPicture& measured) {
-  return {{"measured", calibrate::measured_json(measured)},
+Json answer_of(const calibrate::MeasuredPicture& measured, const std::string& version) {
+  return {{"version", version},
+          {"measured", calibrate::measured_json(measured)},
           {"told", nullptr},
           {"marks", nullptr},
           {"command", calibrate::measure_command(measured)},
@@ -179,13 +202,12 @@ void drop_outline(calibrate::MeasuredPicture& measured) {
 
 }  // namespace
 
-std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const std::string& file) {
-  const fs::path path = path_of(file);
+std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const fs::path& path) {
   const std::string version = version_of(path);
   std::shared_ptr<Kept> kept;
   {
     const std::lock_guard lock(mutex_);
-    auto& place = kept_[file];
+    auto& place = kept_[path.filename().string()];
     if (!place) place = std::make_shared<Kept>();
     kept = place;
   }
@@ -195,18 +217,18 @@ std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const std::string& file
     const calibrate::FileMeasuring plan{
         .pictures = {path}, .keeps_overlays = true, .fields = kTools};
     kept->measured = calibrate::measure_file(plan, 0, [](double) {}).front();
-    kept->answer = answer_of(kept->measured);
+    kept->answer = text_of(answer_of(kept->measured, version));
   } else {
     try {
       const vision::PictureSettings told = vision::with_saved_hints({}, path);
       const Opened picture = opened(path, version, told);
       calibrate::MeasuredAgain again = calibrate::measure_opened(*picture, told, true, kTools);
       again.measured.pixels = vision::pixels_of(picture->picture);
-      kept->answer = answer_of(again);
+      kept->answer = text_of(answer_of(again, version));
       kept->measured = std::move(again.measured);
     } catch (const base::InputError& error) {
       kept->measured = unread(path, error);
-      kept->answer = answer_of(kept->measured);
+      kept->answer = text_of(answer_of(kept->measured, version));
     }
   }
   drop_outline(kept->measured);
@@ -214,8 +236,8 @@ std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const std::string& file
   return kept;
 }
 
-Json PictureFolder::measured(const std::string& file) {
-  const auto kept = this->kept(file);
+std::string PictureFolder::measured(const std::string& file) {
+  const auto kept = this->kept(path_of(file));
   const std::lock_guard lock(kept->mutex);
   return kept->answer;
 }
@@ -225,29 +247,70 @@ Json PictureFolder::measured_as(const std::string& file, const Json& told) {
   if (!is_photograph(path)) {
     throw base::InputError({.where = file, .value = "nothing can be told of it here"});
   }
+  const std::string version = version_of(path);
   const vision::PictureSettings saved = vision::with_saved_hints({}, path);
-  const vision::PictureSettings settings = with_told(saved, told);
+  const vision::PictureSettings settings = settings_of(path, version, told);
   return answer_of(
-      calibrate::measure_opened(*opened(path, version_of(path), saved), settings, false, kTools));
+      calibrate::measure_opened(*opened(path, version, saved), settings, false, kTools), version);
 }
 
-Json PictureFolder::save(const std::string& file, const Json& told) {
+std::string PictureFolder::save(const std::string& file, const Json& told,
+                                const std::string& version) {
   const fs::path path = path_of(file);
   if (!is_photograph(path)) {
     throw base::InputError({.where = file, .value = "nothing can be told of it here"});
   }
-  vision::save_hints(with_told(vision::with_saved_hints({}, path), told), path);
+  {
+    const std::lock_guard lock(saving_);
+    require_unchanged(path, version);
+    vision::PictureSettings settings = settings_of(path, version, told);
+    vision::Hints& hints = settings.measuring.hints;
+    if (hints.mask_file == vision::mask_file_of(path)) vision::save_mask(hints, path);
+    vision::save_hints(settings, path);
+  }
   return measured(file);
 }
 
-Json PictureFolder::forget(const std::string& file) {
-  const fs::path hints = vision::hint_file_of(path_of(file));
-  std::error_code error;
-  fs::remove(hints, error);
-  if (error) {
-    base::refuse(hints, "it cannot be removed: " + error.message(), "see who may write there.");
+std::string PictureFolder::forget(const std::string& file, const std::string& version) {
+  const fs::path path = path_of(file), hints = vision::hint_file_of(path);
+  {
+    const std::lock_guard lock(saving_);
+    require_unchanged(path, version);
+    std::error_code error;
+    fs::remove(hints, error);
+    if (!error) fs::remove(vision::mask_file_of(path), error);
+    if (error) {
+      base::refuse(hints, "it cannot be removed: " + error.message(), "see who may write there.");
+    }
   }
   return measured(file);
+}
+
+vision::PictureSettings PictureFolder::settings_of(const fs::path& path, const std::string& version,
+                                                   const Json& told) {
+  const vision::PictureSettings saved = vision::with_saved_hints({}, path);
+  vision::PictureSettings settings = with_told(saved, told);
+  vision::Hints& hints = settings.measuring.hints;
+  // A saved mask lies on the picture as it was turned then.
+  constexpr int kFull_deg = 360;
+  const int turn_deg = hints.turn_deg - saved.measuring.hints.turn_deg + kFull_deg;
+  hints.mask = vision::turned(std::move(hints.mask), turn_deg % kFull_deg);
+  const std::vector<vision::BrushStroke> strokes = painted_in(told);
+  if (strokes.empty()) return settings;
+  const vision::Picture& picture = opened(path, version, saved)->picture;
+  const bool is_on_its_side = hints.turn_deg % 180 != 0;
+  hints.mask =
+      vision::painted(std::move(hints.mask), is_on_its_side ? picture.height : picture.width,
+                      is_on_its_side ? picture.width : picture.height, strokes);
+  hints.mask_file = vision::mask_file_of(path);
+  return settings;
+}
+
+PictureFolder::Bytes PictureFolder::mask(const std::string& file) {
+  const fs::path path = path_of(file);
+  const vision::Picture mask = vision::with_saved_hints({}, path).measuring.hints.mask;
+  if (mask.empty()) throw base::InputError({.where = file, .value = "nothing is painted over it"});
+  return vision::png_of(mask);
 }
 
 calibrate::MeasuredAgain PictureFolder::again(const std::string& file) {
@@ -260,7 +323,7 @@ PictureFolder::Bytes PictureFolder::picture(const std::string& file, int side_px
   constexpr int kQuality = 88;
   const fs::path path = path_of(file);
   if (!is_photograph(path)) {
-    const auto kept = this->kept(file);
+    const auto kept = this->kept(path);
     const std::lock_guard lock(kept->mutex);
     return kept->measured.overlay.bytes;
   }
@@ -312,7 +375,7 @@ std::vector<calibrate::MeasuredPicture> PictureFolder::all() {
   std::vector<fs::path> files = files_of(folder_);
   std::vector<std::string> pixels;
   for (const fs::path& file : files) {
-    const auto kept = this->kept(file.filename().string());
+    const auto kept = this->kept(file);
     const std::lock_guard lock(kept->mutex);
     pictures.push_back(kept->measured);
     pixels.push_back(kept->measured.pixels);
@@ -329,16 +392,17 @@ std::string PictureFolder::set() { return calibrate::set_json(calibrate::measure
 
 std::string PictureFolder::csv() { return calibrate::measure_csv(all()); }
 
+std::string PictureFolder::workbook() {
+  const std::vector<calibrate::MeasuredPicture> pictures = all();
+  return calibrate::measure_workbook(pictures);
+}
+
 std::string PictureFolder::report() {
   std::vector<calibrate::report::MeasuredPhotograph> shown;
   const std::vector<calibrate::MeasuredPicture> pictures = all();
   for (const calibrate::MeasuredPicture& picture : pictures) {
     if (!picture.copy_of.empty()) continue;
-    calibrate::report::MeasuredPhotograph photograph{
-        .file = picture.file,
-        .error = picture.outcome == calibrate::Outcome::measured ? "" : picture.error,
-        .angle = picture.angle,
-        .overlay = picture.overlay};
+    calibrate::report::MeasuredPhotograph photograph = calibrate::photograph_of(picture);
     if (is_photograph(picture.file) && photograph.error.empty()) {
       const calibrate::MeasuredAgain drawn = again(fs::path(picture.file).filename().string());
       photograph.overlay = calibrate::report::overlay_for_page(drawn.picture, drawn.measured.angle,

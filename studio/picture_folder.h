@@ -6,13 +6,14 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "base/folder_lock.h"
 #include "calibrate/measured/measured_file.h"
+#include "studio/json_answer.h"
 #include "vision/hints/hint_file.h"
 
 namespace repose::studio {
@@ -23,34 +24,44 @@ namespace repose::studio {
 ///
 /// Files are known by their names in the folder: no other name leads anywhere.
 /// All of it throws base::InputError for a name that is not there.
+///
+/// The folder is one studio's: another that is started on it is refused, which FolderLock does.
 class PictureFolder {
  public:
-  using Json = nlohmann::ordered_json;
   using Bytes = std::vector<std::uint8_t>;
 
-  /// @throws base::InputError  it is no folder.
+  /// @throws base::InputError  it is no folder, or another studio has it.
   explicit PictureFolder(std::filesystem::path folder);
 
-  /// `folder`, `definitions` of the angle [{`name`, `description`}], and `files` [{`file`, `kind`,
-  /// `version`, `has_hints`}]; the version changes with the file and with what is saved beside it.
-  /// Copies and subfolders are not looked for.
+  /// `folder`, its `name`, `definitions` of the angle [{`name`, `description`}], the `command` that
+  /// measures all, and `files` [{`file`, `kind`, `version`, `has_hints`}]; the version changes with
+  /// the file and with what is saved beside it. Copies and subfolders are not looked for.
   Json list() const;
 
-  /// As `repose measure --json` has it, in `measured`; with `told`, `marks` (told_json.h),
-  /// `command` and, of a refused picture, `proposed`, what the proposal would make of `told`.
-  Json measured(const std::string& file);
+  const std::filesystem::path& folder() const { return folder_; }
+  /// The file of that name in the folder; no other name leads anywhere.
+  std::filesystem::path path_of(const std::string& file) const;
+
+  /// As `repose measure --json` has it, in `measured`; with `version`, `told`, `marks`
+  /// (told_json.h), `command` and, of a refused picture, `proposed`, what the proposal would make
+  /// of `told`. As text, which is kept: of a thousand pictures the outlines are long.
+  std::string measured(const std::string& file);
   /// The same by what the page tells, which is not saved. Nothing is proposed.
   Json measured_as(const std::string& file, const Json& told);
   /// Saves what the page tells beside the file, and measures by it. Window and definition are not
   /// of one picture, and are not saved.
-  Json save(const std::string& file, const Json& told);
-  /// Removes what is saved beside the file, and measures without it.
-  Json forget(const std::string& file);
+  /// @param version  that was corrected
+  /// @throws ChangedMeanwhile  it is not that any more.
+  std::string save(const std::string& file, const Json& told, const std::string& version);
+  /// Removes what is saved beside the file, and measures without it. Likewise.
+  std::string forget(const std::string& file, const std::string& version);
 
   /// A JPEG of the picture as it is measured when turned so, its longer side at most so long.
   Bytes picture(const std::string& file, int side_px, int turn_deg);
   /// A JPEG with what was measured drawn in, as `repose measure --overlay` draws it.
   Bytes overlay(const std::string& file);
+  /// A PNG of what is saved as painted over the picture: white is heap, black is not, grey is open.
+  Bytes mask(const std::string& file);
 
   /// Puts a file into the folder, under another name where its own is taken; none is replaced.
   /// @returns the name
@@ -61,20 +72,26 @@ class PictureFolder {
   /// All files as repeats, as `repose measure --summary` has it.
   std::string set();
   std::string csv();
+  std::string workbook();
   std::string report();
 
  private:
   struct Kept;
   using Opened = std::shared_ptr<const calibrate::OpenedPicture>;
 
-  std::filesystem::path path_of(const std::string& file) const;
-  std::shared_ptr<Kept> kept(const std::string& file);
+  void require_unchanged(const std::filesystem::path& path, const std::string& version) const;
+  std::shared_ptr<Kept> kept(const std::filesystem::path& path);
   Opened opened(const std::filesystem::path& path, const std::string& version,
                 const vision::PictureSettings& told);
+  /// What is told, with what is painted in its mask.
+  vision::PictureSettings settings_of(const std::filesystem::path& path, const std::string& version,
+                                      const Json& told);
   calibrate::MeasuredAgain again(const std::string& file);
   std::vector<calibrate::MeasuredPicture> all();
 
   const std::filesystem::path folder_;
+  std::optional<base::FolderLock> lock_;
+  std::mutex saving_;
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Kept>> kept_;
   /// Those that were looked at last, the latest first; some, for pictures are large.

@@ -17,6 +17,7 @@
 #include "studio/calibrations.h"
 #include "studio/http.h"
 #include "studio/picture_folder.h"
+#include "studio/set_comparisons.h"
 #include "studio/study_folder.h"
 #include "studio/study_routes.h"
 
@@ -36,6 +37,15 @@ using httplib::Response;
 constexpr const char* kHost = "127.0.0.1";
 constexpr std::size_t kLargestUpload_bytes = std::size_t{128} << 20;
 
+std::string version_in(const Request& request) { return request.get_param_value("version"); }
+
+template <typename Ask>
+httplib::Server::Handler text_answer_of(const Ask& ask) {
+  return answering([ask](const Request& request, Response& response) {
+    response.set_content(ask(request), kJson);
+  });
+}
+
 void send(Response& response, const PictureFolder::Bytes& bytes, const char* type) {
   response.set_content(reinterpret_cast<const char*>(bytes.data()), bytes.size(), type);
 }
@@ -47,6 +57,7 @@ struct Server::Parts {
       : pictures(options.folder), studies(options.folder), calibrations(studies, options.program) {}
 
   PictureFolder pictures;
+  SetComparisons comparisons{pictures};
   StudyFolder studies;
   Calibrations calibrations;
   httplib::Server http;
@@ -57,6 +68,7 @@ struct Server::Parts {
   void serve_page();
   void serve_pictures();
   void serve_files();
+  void serve_comparisons();
 };
 
 /// Nobody is answered but the page; and no page of others can hold this one, or read what it loads.
@@ -130,28 +142,28 @@ void Server::Parts::serve_page() {
 /// GET /api/set         set()
 /// GET /api/measured    measured()
 /// POST /api/measure    measured_as() what is sent
-/// PUT /api/hints       save() what is sent
-/// DELETE /api/hints    forget()
+/// PUT /api/hints       save() what is sent; &version=
+/// DELETE /api/hints    forget(); &version=
 /// POST /api/file       add() what is sent, under that name
 void Server::Parts::serve_pictures() {
   http.Get("/api/folder", json_of([this](const Request&) {
              Json json = pictures.list();
              json["program"] = base::kProgram;
+             json["largest_upload_bytes"] = kLargestUpload_bytes;
              return json;
            }));
-  http.Get("/api/set", answering([this](const Request&, Response& response) {
-             response.set_content(pictures.set(), kJson);
+  http.Get("/api/set", text_answer_of([this](const Request&) { return pictures.set(); }));
+  http.Get("/api/measured", text_answer_of([this](const Request& request) {
+             return pictures.measured(file_in(request));
            }));
-  http.Get("/api/measured",
-           json_of([this](const Request& request) { return pictures.measured(file_in(request)); }));
   http.Post("/api/measure", json_of([this](const Request& request) {
               return pictures.measured_as(file_in(request), json_in(request));
             }));
-  http.Put("/api/hints", json_of([this](const Request& request) {
-             return pictures.save(file_in(request), json_in(request));
+  http.Put("/api/hints", text_answer_of([this](const Request& request) {
+             return pictures.save(file_in(request), json_in(request), version_in(request));
            }));
-  http.Delete("/api/hints", json_of([this](const Request& request) {
-                return pictures.forget(file_in(request));
+  http.Delete("/api/hints", text_answer_of([this](const Request& request) {
+                return pictures.forget(file_in(request), version_in(request));
               }));
   http.Post("/api/file", json_of([this](const Request& request) {
               return Json{{"file", pictures.add(file_in(request), request.body)}};
@@ -160,7 +172,8 @@ void Server::Parts::serve_pictures() {
 
 /// GET /api/picture?file=NAME&side=PX&turns=N   picture(), turned by N quarters
 /// GET /api/overlay?file=NAME                   overlay()
-/// GET /files/angles.csv, /files/photos.html    csv(), report()
+/// GET /api/mask?file=NAME                      mask()
+/// GET /files/angles.csv, /files/angles.xlsx, /files/photos.html    csv(), workbook(), report()
 void Server::Parts::serve_files() {
   http.Get("/api/picture", answering([this](const Request& request, Response& response) {
              constexpr int kSmallest_px = 16, kLargest_px = 4096, kUsual_px = 1600;
@@ -171,11 +184,40 @@ void Server::Parts::serve_files() {
   http.Get("/api/overlay", answering([this](const Request& request, Response& response) {
              send(response, pictures.overlay(file_in(request)), "image/jpeg");
            }));
+  http.Get("/api/mask", answering([this](const Request& request, Response& response) {
+             send(response, pictures.mask(file_in(request)), "image/png");
+           }));
   http.Get("/files/angles.csv", answering([this](const Request&, Response& response) {
              send_file(response, "angles.csv", pictures.csv(), "text/csv; charset=utf-8");
            }));
+  http.Get("/files/angles.xlsx", answering([this](const Request&, Response& response) {
+             send_file(response, "angles.xlsx", pictures.workbook(),
+                       "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet");
+           }));
   http.Get("/files/photos.html", answering([this](const Request&, Response& response) {
              send_file(response, "photos.html", pictures.report(), "text/html; charset=utf-8");
+           }));
+}
+
+/// GET /api/sets                                 folders(), and what is compared where nothing is
+/// said POST /api/comparison                          compare() what is sent GET
+/// /files/comparison.png?number=N&width=PX   figure() GET /files/comparison.json?number=N json()
+void Server::Parts::serve_comparisons() {
+  constexpr int kMost = 1 << 30;
+  http.Get("/api/sets", json_of([this](const Request&) { return comparisons.folders(); }));
+  http.Post("/api/comparison", json_of([this](const Request& request) {
+              return comparisons.compare(json_in(request));
+            }));
+  http.Get("/files/comparison.png", answering([this](const Request& request, Response& response) {
+             constexpr int kSmallest_px = 200, kLargest_px = 5600;
+             const int width_px =
+                 number_in(request, "width", kSmallest_px, kLargest_px, vision::kSetsFigure_px);
+             send(response, comparisons.figure(number_in(request, "number", 0, kMost, 0), width_px),
+                  "image/png");
+           }));
+  http.Get("/files/comparison.json", answering([this](const Request& request, Response& response) {
+             send_file(response, "comparison.json",
+                       comparisons.json(number_in(request, "number", 0, kMost, 0)), kJson);
            }));
 }
 
@@ -206,6 +248,7 @@ Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   parts.serve_files();
   serve_studies(parts.http, parts.studies);
   serve_calibrations(parts.http, parts.calibrations);
+  parts.serve_comparisons();
 }
 
 Server::~Server() = default;

@@ -395,7 +395,7 @@ Json StudyFolder::checked_sheet(const std::string& name, const std::string& expe
 void require_version(const Json& sent, const std::string& text, const std::string& name) {
   const auto version = sent.find("version");
   if (version != sent.end() && *version == base::fingerprint({text})) return;
-  throw base::InputError({.where = name,
+  throw ChangedMeanwhile({.where = name,
                           .value = "was changed meanwhile, on another page or by hand",
                           .fix = "load it again, and make the change once more."});
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -18,17 +17,6 @@ namespace repose::studio {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json line_json(const vision::Segment& line) {
-  return {line.from.x, line.from.y, line.to.x, line.to.y};
-}
-
-template <typename Item>
-Json or_null_json(const std::optional<Item>& item, const std::function<Json(const Item&)>& json) {
-  return item ? json(*item) : Json();
-}
-
-Json box_json(const vision::Box& box) { return {box.x, box.y, box.width, box.height}; }
 
 /// Reads one value; each fault of it names its key.
 class Reader {
@@ -176,20 +164,20 @@ void read_scale(const Reader& reader, const Json& told, base::Faults& faults,
 Json told_json(const vision::PictureSettings& told) {
   const vision::MeasureOptions& measuring = told.measuring;
   const vision::Hints& hints = measuring.hints;
-  Json excluded = Json::array();
-  for (const vision::Box& box : measuring.excluded) excluded.push_back(box_json(box));
   Json json{{"rotate_deg", hints.turn_deg},
-            {"heap", or_null_json<vision::Box>(hints.heap, box_json)},
+            {"heap", box_json(hints.heap)},
             {"half", hints.half ? Json(name_of(*hints.half)) : Json()},
-            {"ground", or_null_json<vision::Segment>(hints.ground, line_json)},
+            {"ground", line_json(hints.ground)},
             {"keep", places_json(hints.keep)},
             {"drop", places_json(hints.drop)},
-            {"exclude", excluded},
+            {"exclude", boxes_json(measuring.excluded)},
             {"scale", nullptr},
             {"board", told.scale.finds_board},
             {"pitch_deg", degrees(measuring.camera_pitch_rad)},
             {"window", {measuring.window_from, measuring.window_to}},
-            {"definition", measuring.definition.empty() ? Json() : Json(measuring.definition)}};
+            {"definition", measuring.definition.empty() ? Json() : Json(measuring.definition)},
+            {"has_mask", !hints.mask_file.empty()},
+            {"painted", Json::array()}};
   if (const auto& bar = told.scale.scale) {
     json["scale"] = {{"line", line_json(bar->line)}, {"length_mm", bar->length_mm}};
   }
@@ -221,16 +209,58 @@ vision::PictureSettings with_told(vision::PictureSettings settings, const Json& 
   return settings;
 }
 
+namespace {
+
+/// None: it is no stroke; faults of its path are noted.
+std::optional<vision::BrushStroke> stroke_of(const Json& json, base::Faults& faults) {
+  using Says = vision::BrushStroke::Says;
+  static const std::map<std::string, Says> kSays{
+      {"heap", Says::heap}, {"no_heap", Says::no_heap}, {"nothing", Says::nothing}};
+  constexpr double kWidest_px = 1e4;
+  if (!json.is_object()) return std::nullopt;
+  const Reader reader(json, faults);
+  const std::string says = reader.text("says", "heap, no_heap or nothing").value_or("");
+  const double width_px = reader.number("width", "a number of pixels").value_or(0);
+  if (!kSays.contains(says) || !(width_px > 0 && width_px < kWidest_px)) return std::nullopt;
+  vision::BrushStroke stroke{.says = kSays.at(says), .width_px = width_px, .path = {}};
+  for (const auto& place : reader.lists("path", 2, kPlacesRule)) {
+    stroke.path.push_back({place[0], place[1]});
+  }
+  return stroke;
+}
+
+}  // namespace
+
+std::vector<vision::BrushStroke> painted_in(const Json& told) {
+  constexpr const char* kRule =
+      "strokes with says (heap, no_heap or nothing), a width in pixels above 0 and a path";
+  std::vector<vision::BrushStroke> strokes;
+  base::Faults faults;
+  const Reader reader(told, faults);
+  if (!reader.has("painted")) return strokes;
+  if (!told.at("painted").is_array()) reader.refuse("painted", kRule);
+  for (const Json& json : told.at("painted").is_array() ? told.at("painted") : Json::array()) {
+    auto stroke = stroke_of(json, faults);
+    if (!stroke) {
+      reader.refuse("painted", kRule);
+      break;
+    }
+    strokes.push_back(*std::move(stroke));
+  }
+  faults.throw_if_any();
+  return strokes;
+}
+
 Json marks_json(const calibrate::MeasuredAgain& again) {
   const vision::ReposeAngle& angle = again.measured.angle;
   const auto side = [](const vision::Flank& flank) -> Json {
-    return {{"line", or_null_json<vision::Segment>(flank.line, line_json)},
+    return {{"line", line_json(flank.line)},
             {"apron_line", flank.apron ? line_json(flank.apron->line_with) : Json()}};
   };
   return {{"width", again.picture.width},
           {"height", again.picture.height},
           {"outline", places_json(angle.outline)},
-          {"ground", or_null_json<vision::Segment>(angle.ground, line_json)},
+          {"ground", line_json(angle.ground)},
           {"left", side(angle.left)},
           {"right", side(angle.right)}};
 }

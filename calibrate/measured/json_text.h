@@ -27,6 +27,24 @@ inline nlohmann::ordered_json places_json(const std::vector<vision::Point>& plac
   return json;
 }
 
+/// [x, y, width, height]; null where there is none.
+inline nlohmann::ordered_json box_json(const std::optional<vision::Box>& box) {
+  if (!box) return nullptr;
+  return nlohmann::ordered_json::array({box->x, box->y, box->width, box->height});
+}
+
+inline nlohmann::ordered_json boxes_json(const std::vector<vision::Box>& boxes) {
+  auto json = nlohmann::ordered_json::array();
+  for (const vision::Box& box : boxes) json.push_back(box_json(box));
+  return json;
+}
+
+/// [x1, y1, x2, y2]; null where there is none.
+inline nlohmann::ordered_json line_json(const std::optional<vision::Segment>& line) {
+  if (!line) return nullptr;
+  return nlohmann::ordered_json::array({line->from.x, line->from.y, line->to.x, line->to.y});
+}
+
 /// A list as the text of a JSON array.
 /// @param json_of  makes an object of each
 template <typename Item, typename JsonOf>

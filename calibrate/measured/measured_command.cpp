@@ -101,6 +101,16 @@ std::string measure_command(const MeasuredPicture& picture) {
   return fmt::format("repose measure {}{}", base::shell_word(picture.file), options.text());
 }
 
+report::MeasuredPhotograph photograph_of(const MeasuredPicture& picture) {
+  const bool is_read = picture.outcome == Outcome::measured;
+  return {.file = picture.file,
+          .error = is_read ? "" : picture.error,
+          .angle = picture.angle,
+          .overlay = picture.overlay,
+          .heap = picture.heap,
+          .command = is_read ? measure_command(picture) : ""};
+}
+
 vision::PictureSettings with_proposal(vision::PictureSettings told,
                                       const vision::Proposal& proposal) {
   vision::MeasureOptions& measuring = told.measuring;

@@ -11,6 +11,9 @@ namespace repose::calibrate {
 /// The command line that measures the file with all that was said of it, as a shell takes it.
 std::string measure_command(const MeasuredPicture& picture);
 
+/// For the report, with its command.
+report::MeasuredPhotograph photograph_of(const MeasuredPicture& picture);
+
 /// What was said of a picture, with what is proposed for it.
 vision::PictureSettings with_proposal(vision::PictureSettings told,
                                       const vision::Proposal& proposal);

@@ -12,25 +12,13 @@
 
 #include "base/csv.h"
 #include "calibrate/measured/json_text.h"
+#include "calibrate/measured/measured_columns.h"
 #include "vision/measure/repose_angle.h"
 #include "vision/scan/scanned_heap.h"
 
 namespace repose::calibrate {
 
 namespace {
-
-constexpr const char* kHeader =
-    "file,status,angle_deg,uncertainty_deg,"
-    "left_status,left_deg,left_uncertainty_deg,left_r2,left_points,"
-    "right_status,right_deg,right_uncertainty_deg,right_r2,right_points,"
-    "ground_tilt_deg,window_from,window_to,method,segmentation,confidence,"
-    "strays,grain_px,height_px,base_px,hints,warnings,reason,"
-    "time_s,film_from_s,film_to_s,film_frames,frames_per_s,"
-    "camera,scale,mm_per_px,mm_per_px_uncertainty,height_mm,height_mm_uncertainty,"
-    "base_mm,base_mm_uncertainty,cone_volume_ml,cone_volume_ml_uncertainty,"
-    "left_run_out_mm,left_run_out_mm_uncertainty,right_run_out_mm,right_run_out_mm_uncertainty,"
-    "size_reason,volume_ml,volume_ml_uncertainty,azimuths,azimuth_sd_deg,"
-    "definition\n";
 
 /// One row, field by field.
 class Row {
@@ -43,7 +31,7 @@ class Row {
   void add_degrees(const std::optional<double>& angle_rad) {
     add_number(angle_rad ? std::optional(rounded_degrees(*angle_rad)) : std::nullopt);
   }
-  std::string line() const { return base::csv_row(fields_); }
+  std::vector<std::string> cells() && { return std::move(fields_); }
 
  private:
   std::vector<std::string> fields_;
@@ -116,7 +104,7 @@ void add_scan(Row& row, const std::optional<vision::ScannedHeap>& scan) {
 }
 
 /// Of a scan what a picture has besides stays empty.
-std::string scan_line(const MeasuredPicture& picture) {
+std::vector<std::string> scan_cells(const MeasuredPicture& picture) {
   constexpr int kOfSides = 11;    // from left_status to ground_tilt_deg
   constexpr int kOfPictures = 7;  // from segmentation to hints
   const vision::ReposeAngle& angle = picture.angle;
@@ -136,11 +124,10 @@ std::string scan_line(const MeasuredPicture& picture) {
   add_sizes(row, picture);
   add_scan(row, picture.scan);
   row.add_text(angle.definition);
-  return row.line();
+  return std::move(row).cells();
 }
 
-std::string measured_line(const MeasuredPicture& picture) {
-  if (picture.scan) return scan_line(picture);
+std::vector<std::string> picture_cells(const MeasuredPicture& picture) {
   const vision::ReposeAngle& angle = picture.angle;
   Row row;
   row.add_text(picture.file);
@@ -166,11 +153,11 @@ std::string measured_line(const MeasuredPicture& picture) {
   add_sizes(row, picture);
   add_scan(row, picture.scan);
   row.add_text(angle.definition);
-  return row.line();
+  return std::move(row).cells();
 }
 
 /// Nothing is known of it but why.
-std::string unread_line(const MeasuredPicture& picture) {
+std::vector<std::string> unread_cells(const MeasuredPicture& picture) {
   constexpr int kUnknownFields = 24;  // between status and reason
   Row row;
   row.add_text(picture.file);
@@ -181,16 +168,21 @@ std::string unread_line(const MeasuredPicture& picture) {
   add_sizes(row, picture);
   add_scan(row, picture.scan);
   row.add_text("");
-  return row.line();
+  return std::move(row).cells();
 }
 
 }  // namespace
 
+std::vector<std::string> measured_cells(const MeasuredPicture& picture) {
+  if (picture.outcome != Outcome::measured) return unread_cells(picture);
+  return picture.scan ? scan_cells(picture) : picture_cells(picture);
+}
+
 std::string measure_csv(const std::vector<MeasuredPicture>& pictures) {
-  std::string csv = kHeader;
-  for (const MeasuredPicture& picture : pictures) {
-    csv += picture.outcome == Outcome::measured ? measured_line(picture) : unread_line(picture);
-  }
+  std::vector<std::string> header;
+  for (const MeasuredColumn& column : measured_columns()) header.emplace_back(column.name);
+  std::string csv = base::csv_row(header);
+  for (const MeasuredPicture& picture : pictures) csv += base::csv_row(measured_cells(picture));
   return csv;
 }
 
@@ -244,16 +236,6 @@ Json definitions_json(const std::vector<vision::NamedAngle>& definitions) {
   return json;
 }
 
-Json box_json(const std::optional<vision::Box>& box) {
-  if (!box) return nullptr;
-  return Json::array({box->x, box->y, box->width, box->height});
-}
-
-Json line_json(const std::optional<vision::Segment>& line) {
-  if (!line) return nullptr;
-  return Json::array({line->from.x, line->from.y, line->to.x, line->to.y});
-}
-
 /// What a person has said of the picture; null when nothing.
 Json hints_json(const vision::Hints& hints) {
   if (hints.empty() && hints.source.empty()) return nullptr;
@@ -265,12 +247,6 @@ Json hints_json(const vision::Hints& hints) {
           {"drop", places_json(hints.drop)},
           {"mask", hints.mask.width > 0},
           {"file", hints.source.empty() ? Json() : Json(hints.source)}};
-}
-
-Json excluded_json(const std::vector<vision::Box>& boxes) {
-  Json json = Json::array();
-  for (const vision::Box& box : boxes) json.push_back(box_json(box));
-  return json;
 }
 
 /// What would help a refused picture; null when nothing is known.
@@ -442,7 +418,7 @@ Json measured_json(const MeasuredPicture& picture) {
             {"pitch_deg", degrees(angle.camera_pitch_rad)},
             {"confidence", angle.confidence},
             {"warnings", warnings_json(angle.warnings)},
-            {"excluded", excluded_json(picture.told.measuring.excluded)},
+            {"excluded", boxes_json(picture.told.measuring.excluded)},
             {"hints", hints_json(picture.told.measuring.hints)},
             {"proposal", proposal_json(picture.proposal)},
             {"segmentation", angle.segmentation},

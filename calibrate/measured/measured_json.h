@@ -9,7 +9,10 @@
 
 namespace repose::calibrate {
 
-/// A header and a row for each picture, quoted by RFC 4180. What does not exist is empty.
+/// A cell for each of measured_columns(). What does not exist is empty.
+std::vector<std::string> measured_cells(const MeasuredPicture& picture);
+
+/// A header and a row for each picture, quoted by RFC 4180.
 std::string measure_csv(const std::vector<MeasuredPicture>& pictures);
 
 /// An object with all that is known of a picture. A number that does not exist is null.

@@ -8,6 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "vision/drawing/overlay.h"
+
 /// What a report says, before it becomes a page: chapters of text, tables, charts and pictures.
 
 namespace repose::calibrate::report {
@@ -102,6 +104,11 @@ struct ShownPicture {
   int height = 0;
   std::string alt;
   std::string caption;
+  /// Of the picture that it shows, whose pixels are told where one points; 0: they are not.
+  int picture_width = 0;
+  int picture_height = 0;
+  vision::OverlaidArea area = {};
+  std::string command = {};  ///< that gives the same; empty: none
 };
 
 struct PictureRow {

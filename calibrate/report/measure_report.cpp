@@ -190,6 +190,7 @@ PictureRow overlays_row(const std::vector<MeasuredPhotograph>& pictures) {
     const std::string text = name_of_file(picture) + ": " + what;
     row.pictures.push_back(
         shown_jpeg(picture.overlay, "Photograph with the measurement drawn in. " + text, text));
+    row.pictures.back().command = picture.command;
   }
   return row;
 }
@@ -198,7 +199,12 @@ PictureRow overlays_row(const std::vector<MeasuredPhotograph>& pictures) {
 
 PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAngle& angle,
                           const vision::OverlayNotes& notes, std::size_t pictures) {
-  return page_overlay(vision::draw_overlay(picture, angle, notes), pictures);
+  const vision::Picture overlay = vision::draw_overlay(picture, angle, notes);
+  PageJpeg jpeg = page_overlay(overlay, pictures);
+  jpeg.picture_width = picture.width;
+  jpeg.picture_height = picture.height;
+  jpeg.area = vision::area_in_overlay(picture, overlay);
+  return jpeg;
 }
 
 PageJpeg page_overlay(const vision::Picture& overlay, std::size_t pictures) {

@@ -16,6 +16,10 @@ struct PageJpeg {
   std::vector<std::uint8_t> bytes;
   int width = 0;
   int height = 0;
+  /// Of the picture that is measured in it; 0: its pixels are not told.
+  int picture_width = 0;
+  int picture_height = 0;
+  vision::OverlaidArea area = {};
 };
 
 /// A picture with what was measured drawn in, as large as a page with so many has room for.
@@ -32,6 +36,7 @@ struct MeasuredPhotograph {
   vision::ReposeAngle angle;  ///< or the refusal
   PageJpeg overlay;           ///< without bytes: not shown
   std::string heap = {};      ///< as calibrate::SetPicture::heap
+  std::string command = {};   ///< that measures it so; empty: not told
 };
 
 /// A page about a batch of pictures, as `repose measure` measured them: the mean of those that

@@ -281,6 +281,16 @@ void fill(const PictureRow& row, Dictionary& block) {
     figure.SetIntValue("HEIGHT", picture.height);
     figure.SetValue("ALT", picture.alt);
     figure.SetValue("TEXT", picture.caption);
+    if (picture.picture_width > 0) {
+      const auto& [left, width, height] = picture.area;
+      figure.AddSectionDictionary("PIXELS")->SetValue(
+          "PLACE", fmt::format("{} {} {:.6f} {:.6f} {:.6f}", picture.picture_width,
+                               picture.picture_height, left, width, height));
+      figure.AddSectionDictionary("PIXEL");
+    }
+    if (!picture.command.empty()) {
+      figure.AddSectionDictionary("COMMAND")->SetValue("LINE", picture.command);
+    }
   }
 }
 

@@ -20,7 +20,10 @@ ShownPicture shown_jpeg(const PageJpeg& jpeg, const std::string& alt, const std:
       .width = jpeg.width,
       .height = jpeg.height,
       .alt = alt,
-      .caption = caption};
+      .caption = caption,
+      .picture_width = jpeg.picture_width,
+      .picture_height = jpeg.picture_height,
+      .area = jpeg.area};
 }
 
 ShownPicture shown_picture(const vision::Picture& picture, int longest_side_px,

@@ -62,6 +62,9 @@ calibrate::PositionsOptions read_position_options(const PositionArguments& argum
   return options;
 }
 
+namespace {
+
+/// Those of a folder, by name, without subfolders; none when it cannot be read.
 std::vector<std::filesystem::path> positions_files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> found;
   std::error_code error;
@@ -75,6 +78,8 @@ std::vector<std::filesystem::path> positions_files_in(const std::filesystem::pat
   std::ranges::sort(found);
   return found;
 }
+
+}  // namespace
 
 std::vector<std::string> with_positions_of_folders(const std::vector<std::string>& names) {
   std::vector<std::string> all;

@@ -44,9 +44,6 @@ extern const char* const kPositionNotes;
 calibrate::PositionsOptions read_position_options(const PositionArguments& arguments,
                                                   std::vector<std::string>& errors);
 
-/// Those of a folder, by name, without subfolders; none when it cannot be read.
-std::vector<std::filesystem::path> positions_files_in(const std::filesystem::path& folder);
-
 /// Names of pictures, films, scans and folders, in which those of folders that hold none of these,
 /// but files of particles, have become the files' names.
 std::vector<std::string> with_positions_of_folders(const std::vector<std::string>& names);

@@ -4,22 +4,21 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <memory>
-#include <set>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include "base/distributions.h"
 #include "base/input_error.h"
 #include "base/units.h"
+#include "calibrate/compared/compared_json.h"
+#include "calibrate/compared/compared_sets.h"
 #include "calibrate/experiment/heap_angle.h"
 #include "calibrate/experiment/scan_angle.h"
-#include "calibrate/particles/positions_angle.h"
 #include "calibrate/statistics/summary.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
@@ -28,8 +27,6 @@
 #include "cli/compare/compare_options.h"
 #include "cli/compare/compare_table.h"
 #include "vision/drawing/heap_comparison_overlay.h"
-#include "vision/drawing/heap_sets_figure.h"
-#include "vision/files/file_list.h"
 #include "vision/files/heap_file.h"
 #include "vision/scan/scan_file.h"
 
@@ -37,229 +34,32 @@ namespace repose::cli {
 
 namespace {
 
-using vision::SeenHeap;
-
-/// One picture to be measured, and where its result belongs.
-struct Task {
-  std::size_t set = 0;
-  std::size_t heap = 0;
-  std::size_t view = 0;
-  const calibrate::HeapViewSession* session = nullptr;  ///< of a simulated heap
-};
-
-/// Both sets while they are measured.
-struct Work {
-  std::array<std::vector<SeenHeap>, 2> sets;
-  std::vector<std::unique_ptr<calibrate::HeapViewSession>> sessions;
-  std::vector<Task> tasks;
-  std::array<std::vector<std::string>, 2> pixels;  ///< of each photograph
-  std::vector<std::string> errors;
-};
-
-/// Pictures, or scans, whose views are drawn when they are read.
-void add_files(const ComparePlan& plan, std::size_t set, Work& work) {
-  const std::optional<vision::PictureScale>& scale = plan.comparing.scale[set];
-  for (std::size_t heap = 0; heap < plan.sources[set].files.size(); ++heap) {
-    SeenHeap seen{.views = std::vector<vision::ReposeAngle>(1), .m_per_px = {}};
-    if (scale) seen.m_per_px = scale->length_m;
-    work.sets[set].push_back(std::move(seen));
-    work.pixels[set].emplace_back();
-    work.tasks.push_back({.set = set, .heap = heap});
-  }
-}
-
-void add_simulated(const ComparePlan& plan, std::size_t set, Work& work) {
-  const std::vector<std::filesystem::path>& files = plan.sources[set].files;
-  for (std::size_t heap = 0; heap < files.size(); ++heap) {
-    try {
-      work.sessions.push_back(std::make_unique<calibrate::HeapViewSession>(
-          calibrate::read_positions(files[heap], {}).heap.scene,
-          calibrate::HeapViewing{.camera = plan.camera}));
-    } catch (const base::InputError& error) {
-      work.errors.push_back(base::naming_file(files[heap].string(), error.what()));
-      continue;
-    }
-    const calibrate::HeapViewSession& session = *work.sessions.back();
-    const auto views = static_cast<std::size_t>(session.views());
-    work.sets[set].push_back(
-        {.views = std::vector<vision::ReposeAngle>(views), .m_per_px = session.m_per_px()});
-    for (std::size_t view = 0; view < views; ++view) {
-      work.tasks.push_back({.set = set, .heap = heap, .view = view, .session = &session});
-    }
-  }
-}
-
-/// A view of a simulated heap, all views of a scan, or a photograph; of that with a saved scale the
-/// scale, too.
-void measure(const ComparePlan& plan, const Task& task, render::Renderer* renderer, SeenHeap& seen,
-             Work& work) {
-  const vision::MeasureOptions& options = plan.measuring[task.set];
-  if (task.session != nullptr) {
-    seen.views[task.view] =
-        task.session->take(*renderer, static_cast<int>(task.view), options).angle;
-    return;
-  }
-  const HeapSource& source = plan.sources[task.set];
-  const std::filesystem::path& file = source.files[task.heap];
-  if (source.kind == HeapSource::Kind::scans) {
-    calibrate::ScanViews scan = calibrate::measure_scan_file(file, options);
-    seen = {.views = std::move(scan.views), .m_per_px = scan.m_per_px};
-    return;
-  }
-  vision::HeapInFile measured =
-      vision::measure_heap_file(file, {.measuring = options, .scale = {}});
-  work.pixels[task.set][task.heap] = vision::pixels_of(measured.picture);
-  const std::optional<vision::Estimate>& mm_per_px = measured.heap.sizes.mm_per_px;
-  if (!seen.m_per_px && mm_per_px) seen.m_per_px = mm_per_px->value / 1000;
-  seen.views.front() = std::move(measured.heap.angle);
-}
-
-void measure_all(const ComparePlan& plan, const std::atomic<bool>& is_interrupted, Work& work) {
-  Progress progress(work.tasks.size());
-  // Contexts are costly to make, and each belongs to one thread.
-  tbb::enumerable_thread_specific<std::unique_ptr<render::Renderer>> renderers;
-  std::vector<std::string> errors(work.tasks.size());
-  tbb::parallel_for(std::size_t{0}, work.tasks.size(), [&](std::size_t i) {
-    if (is_interrupted) return;
-    const Task& task = work.tasks[i];
-    try {
-      std::unique_ptr<render::Renderer>& renderer = renderers.local();
-      if (task.session != nullptr && !renderer) renderer = std::make_unique<render::Renderer>();
-      measure(plan, task, renderer.get(), work.sets[task.set][task.heap], work);
-    } catch (const base::InputError& error) {
-      errors[i] = base::naming_file(plan.sources[task.set].files[task.heap].string(),
-                                    base::text_of(error.faults(), kCompareFields[task.set]));
-    }
-    progress.advance();
-  });
-  for (std::string& error : errors) {
-    if (!error.empty()) work.errors.push_back(std::move(error));
-  }
-}
-
-/// Takes copies out of each set, and says how many heaps are in both.
-void drop_copies(ComparePlan& plan, Work& work) {
-  std::vector<std::filesystem::path> files;
-  std::vector<std::string> pixels;
-  for (const std::size_t set : {0, 1}) {
-    const auto& own = plan.sources[set].files;
-    files.insert(files.end(), own.begin(), own.end());
-    work.pixels[set].resize(own.size());
-    pixels.insert(pixels.end(), work.pixels[set].begin(), work.pixels[set].end());
-  }
-  const std::size_t first_size = plan.sources[0].files.size();
-  const auto first_of = vision::copies_among(files, pixels);
-  std::array<std::vector<std::filesystem::path>, 2> kept;
-  std::array<std::vector<SeenHeap>, 2> heaps;
-  std::set<std::size_t> in_second;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const std::size_t set = i < first_size ? 0 : 1;
-    const std::size_t same = first_of[i].value_or(i);
-    const bool is_repeated = set == 0 ? same != i : !in_second.insert(same).second;
-    if (is_repeated) {
-      print_line(vision::text_of_copy(files[i], files[same]));
-      continue;
-    }
-    if (set == 1 && same < first_size) ++plan.in_both;
-    kept[set].push_back(files[i]);
-    heaps[set].push_back(std::move(work.sets[set][i - (set == 0 ? 0 : first_size)]));
-  }
-  for (const std::size_t set : {0, 1}) {
-    plan.sources[set].files = std::move(kept[set]);
-    work.sets[set] = std::move(heaps[set]);
-  }
-}
-
-/// Heaps that have one scale in all their pictures; none where they have several.
-std::optional<double> scale_of_both(const SeenHeap& one, const SeenHeap& other) {
-  constexpr double kAlike = 1e-3;
-  if (!one.m_per_px || !other.m_per_px) return std::nullopt;
-  return std::abs(*one.m_per_px / *other.m_per_px - 1) < kAlike ? one.m_per_px : std::nullopt;
-}
-
-/// Photographs of one heap become its views: a heap's angle is the mean of them.
-void group_by_name(ComparePlan& plan, Work& work) {
-  if (!plan.groups_by_name) return;
-  for (const std::size_t set : {0, 1}) {
-    HeapSource& source = plan.sources[set];
-    if (source.is_drawn()) continue;
-    std::vector<std::filesystem::path> firsts;
-    std::vector<SeenHeap> heaps;
-    for (std::size_t i = 0; i < source.files.size(); ++i) {
-      const std::string name = vision::heap_by_name(source.files[i]);
-      const auto same = std::ranges::find(firsts, name, vision::heap_by_name);
-      SeenHeap& seen = work.sets[set][i];
-      if (same == firsts.end()) {
-        firsts.push_back(source.files[i]);
-        source.views.push_back({source.files[i]});
-        heaps.push_back(std::move(seen));
-        continue;
-      }
-      const auto heap = static_cast<std::size_t>(same - firsts.begin());
-      source.views[heap].push_back(source.files[i]);
-      heaps[heap].m_per_px = scale_of_both(heaps[heap], seen);
-      heaps[heap].views.push_back(std::move(seen.views.front()));
-    }
-    source.files = std::move(firsts);
-    work.sets[set] = std::move(heaps);
-  }
-}
-
-/// A set agrees with itself, whatever its grains are.
-void warn_of_both(const ComparePlan& plan, vision::SetComparison& comparison) {
-  if (plan.in_both == 0) return;
-  const auto& [first, second] = plan.sources;
-  const auto size = [](const HeapSource& source) { return static_cast<int>(source.files.size()); };
-  const bool is_all = plan.in_both == size(first) && plan.in_both == size(second);
-  comparison.warnings.push_back(
-      {"same_heaps",
-       is_all ? "Both sets are the same heaps: a set is compared with itself, and that they agree "
-                "says nothing."
-              : fmt::format("{} of the heaps {} in both sets: that they agree says less.",
-                            plan.in_both, plan.in_both == 1 ? "is" : "are")});
-}
-
-void write_figure(const ComparePlan& plan, const vision::SetComparison& comparison) {
-  if (plan.overlay_file.empty()) return;
-  vision::HeapSetsNotes notes{.titles = {}, .margin_rad = plan.comparing.margin_rad};
-  for (const std::size_t i : {0, 1}) notes.titles[i] = title_of(plan.sources[i]);
-  vision::write_picture(plan.overlay_file, vision::draw_heap_sets(comparison, notes));
-}
-
 /// Carries out `repose compare` where one of both is more than one picture.
-ExitCode compare_sets(ComparePlan plan, const std::atomic<bool>& is_interrupted) {
-  Work work;
-  for (const std::size_t set : {0, 1}) {
-    if (plan.sources[set].kind == HeapSource::Kind::simulated) {
-      add_simulated(plan, set, work);
-    } else {
-      add_files(plan, set, work);
-    }
-  }
-  if (work.errors.empty()) measure_all(plan, is_interrupted, work);
-  if (is_interrupted) {
+ExitCode compare_sets(const ComparePlan& plan, const std::atomic<bool>& is_interrupted) {
+  std::optional<Progress> bar;
+  const calibrate::SetsPlan& sets = plan;
+  const calibrate::ComparedSets compared = calibrate::compare_sets_of(
+      sets, {.begins = [&](std::size_t pictures) { bar.emplace(pictures); },
+             .advances = [&] { bar->advance(); },
+             .is_stopped = [&] { return is_interrupted.load(); }});
+  bar.reset();
+  if (compared.was_stopped) {
     print_line("interrupted, no results were written");
     return ExitCode::interrupted;
   }
-  print_lines(work.errors);
-  if (!work.errors.empty()) return ExitCode::bad_input;
-
-  drop_copies(plan, work);
-  group_by_name(plan, work);
-  vision::SetComparison comparison =
-      vision::compare_sets(work.sets[0], work.sets[1], plan.comparing.margin_rad);
-  warn_of_both(plan, comparison);
-  const bool is_refused = !comparison.sets[0].mean_rad || !comparison.sets[1].mean_rad;
-  if (is_refused && !comparison.iou && !plan.overlay_file.empty()) {
+  print_lines(compared.errors);
+  if (!compared.errors.empty()) return ExitCode::bad_input;
+  print_lines(compared.notes);
+  if (!plan.overlay_file.empty() && !compared.has_figure()) {
     print_line(plan.overlay_file + ": not drawn, as there is nothing to compare");
-  } else {
-    write_figure(plan, comparison);
+  } else if (!plan.overlay_file.empty()) {
+    vision::write_picture(plan.overlay_file, calibrate::figure_of(compared));
   }
   Outputs outputs;
-  outputs.add(plan.json_file, sets_json(plan, work.sets, comparison));
-  outputs.show(sets_table(plan, work.sets, comparison, columns_of(stdout)));
+  outputs.add(plan.json_file, calibrate::sets_json(compared));
+  outputs.show(sets_table(compared, plan.grain_m, columns_of(stdout)));
   outputs.write();
-  return is_refused ? ExitCode::nothing_measurable : ExitCode::done;
+  return compared.has_verdict() ? ExitCode::done : ExitCode::nothing_measurable;
 }
 
 struct MeasuredHeap {
@@ -452,7 +252,7 @@ ExitCode run_compare(const CompareArguments& arguments) {
   if (!plan.errors.empty()) return ExitCode::bad_input;
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   if (plan.is_pair()) return compare_pair(std::move(plan), is_interrupted);
-  return compare_sets(std::move(plan), is_interrupted);
+  return compare_sets(plan, is_interrupted);
 }
 
 }  // namespace repose::cli

@@ -61,7 +61,7 @@ class Lengths {
 };
 
 /// What the angles are by, where that is not the usual definition.
-void add_definition(Table& table, const ComparePlan& plan) {
+void add_definition(Table& table, const calibrate::SetsPlan& plan) {
   const std::string definition = plan.measuring.front().definition_text();
   if (!definition.empty()) table.add_note("", "all angles by " + definition);
 }
@@ -199,7 +199,7 @@ std::string verdict_text(const vision::SetComparison& comparison, double margin_
   return text;
 }
 
-Table means_table(const ComparePlan& plan, const vision::SetComparison& comparison) {
+Table means_table(const calibrate::SetsPlan& plan, const vision::SetComparison& comparison) {
   const auto& [first, second] = comparison.sets;
   const auto count = [](const vision::SetOfHeaps& set) {
     return fmt::format("{} of {}", set.counted, set.angle_rad.size());
@@ -219,7 +219,8 @@ Table means_table(const ComparePlan& plan, const vision::SetComparison& comparis
   return table;
 }
 
-std::string outlines_text(const ComparePlan& plan, const vision::SetComparison& comparison) {
+std::string outlines_text(const vision::SetComparison& comparison,
+                          const std::optional<double>& grain_m) {
   const bool is_metric = comparison.unit == vision::LengthUnit::metre;
   const auto length = [&](double value) {
     return is_metric
@@ -231,8 +232,8 @@ std::string outlines_text(const ComparePlan& plan, const vision::SetComparison& 
       "square)",
       *comparison.iou, length(*comparison.profile_rmse));
   if (comparison.profile_mean) text += fmt::format(", {} (mean)", length(*comparison.profile_mean));
-  if (plan.grain_m && is_metric) {
-    text += fmt::format(", {:.2f} grains", *comparison.profile_rmse / *plan.grain_m);
+  if (grain_m && is_metric) {
+    text += fmt::format(", {:.2f} grains", *comparison.profile_rmse / *grain_m);
   }
   return text + '.';
 }
@@ -256,22 +257,6 @@ void add_refused(const HeapSource& source, const std::vector<vision::SeenHeap>& 
 
 namespace {
 
-const char* name_of(HeapSource::Kind kind) {
-  if (kind == HeapSource::Kind::pictures) return "pictures";
-  return kind == HeapSource::Kind::scans ? "scanned" : "simulated";
-}
-
-}  // namespace
-
-std::string title_of(const HeapSource& source) {
-  const std::filesystem::path path(source.name);
-  const std::filesystem::path name =
-      path.has_filename() ? path.filename() : path.parent_path().filename();
-  return fmt::format("{} ({})", name.string(), name_of(source.kind));
-}
-
-namespace {
-
 std::string distance_text(const std::optional<dem::LevelCamera>& camera) {
   if (!camera) return "";
   return fmt::format(", from {:g} mm away and {:g} mm up", 1000 * camera->distance_m,
@@ -288,9 +273,11 @@ std::string pictures_text(const HeapSource& source) {
 
 }  // namespace
 
-std::string sets_table(const ComparePlan& plan,
-                       const std::array<std::vector<vision::SeenHeap>, 2>& heaps,
-                       const vision::SetComparison& comparison, int columns) {
+std::string sets_table(const calibrate::ComparedSets& compared,
+                       const std::optional<double>& grain_m, int columns) {
+  const calibrate::SetsPlan& plan = compared.plan;
+  const auto& heaps = compared.heaps;
+  const vision::SetComparison& comparison = compared.comparison;
   Page page(columns);
   constexpr std::array kMarks = {"first   ", "second  "};
   for (const std::size_t i : {0, 1}) {
@@ -304,7 +291,7 @@ std::string sets_table(const ComparePlan& plan,
   page.add(means_table(plan, comparison));
   if (comparison.iou) {
     page.add_gap();
-    page.add(outlines_text(plan, comparison));
+    page.add(outlines_text(comparison, grain_m));
   }
   for (const std::size_t i : {0, 1}) add_refused(plan.sources[i], heaps[i], page);
   for (const vision::Warning& warning : comparison.warnings) page.add("! ", warning.message);

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/measured/measured_command.h"
 #include "calibrate/measured/measured_json.h"
 #include "calibrate/measured/measured_set.h"
 #include "calibrate/report/measure_report.h"
@@ -89,11 +90,7 @@ std::string report_page(const std::vector<calibrate::MeasuredPicture>& pictures,
   std::vector<calibrate::report::MeasuredPhotograph> shown;
   for (const calibrate::MeasuredPicture& picture : pictures) {
     if (is_of_series(picture) || !picture.copy_of.empty()) continue;
-    shown.push_back({.file = picture.file,
-                     .error = picture.outcome == calibrate::Outcome::measured ? "" : picture.error,
-                     .angle = picture.angle,
-                     .overlay = picture.overlay,
-                     .heap = picture.heap});
+    shown.push_back(calibrate::photograph_of(picture));
   }
   return calibrate::report::measure_report(shown, plan.options).html;
 }

@@ -9,7 +9,8 @@
 //
 // What must hold: nothing is fetched, no error is told, no name becomes markup, every chart is drawn
 // with its titles inside it, on a desk, on a telephone and on paper, what can be scrolled sideways has a
-// sign, what can be clicked reacts, and on a telephone verdicts are seen without scrolling sideways. Before the appendix there are eight pages of paper at most. Load
+// sign, what can be clicked reacts, a photograph tells its pixels and its command, and on a telephone verdicts
+// are seen without scrolling sideways. Before the appendix there are eight pages of paper at most. Load
 // times are only printed.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
@@ -18,6 +19,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import puppeteer from 'puppeteer-core';
+import {openWatched} from '../support/watched_page.mjs';
 import {writeStudyFolder} from './study_folder.mjs';
 
 const [repose, chromium, photograph, heapStudy, madeUpResult] = process.argv.slice(2);
@@ -47,20 +49,10 @@ const makeReports = (folder) => {
   return [join(study, 'report.html'), join(half, 'report.html'), measured];
 };
 
-// A page that notes what it must not do.
 const open = async (browser, file, width) => {
-  const page = await browser.newPage();
-  page.setDefaultTimeout(kPatience_ms);
-  const errors = [];
-  page.on('console', (message) => { if (message.type() === 'error') errors.push(`console: ${message.text()}`); });
-  page.on('pageerror', (error) => errors.push(`error: ${error.message}`));
-  page.on('request', (request) => {
-    const url = request.url();
-    if (!url.startsWith('data:') && !url.startsWith('blob:') && url !== pathToFileURL(file).href) errors.push(`request: ${url.slice(0, 200)}`);
-  });
-  await page.setViewport({width, height: 900});
-  const start = Date.now();
-  await page.goto(pathToFileURL(file).href);
+  const start = Date.now(), address = pathToFileURL(file).href;
+  const {page, errors} = await openWatched(browser, address,
+    {width, patience_ms: kPatience_ms, isOwn: (url) => url.startsWith('blob:') || url === address});
   console.log(`${file} at ${width} px: loaded in ${Date.now() - start} ms`);
   await page.waitForFunction(() => [...document.querySelectorAll('.chart')].every(({dataset}) => dataset.state === 'drawn'));
   return {page, errors};
@@ -201,6 +193,24 @@ const checkInteraction = async (page) => {
   await page.waitForFunction((id) => document.querySelector(`${id} .plot`).data.some(({visible}) => visible === 'legendonly'), {}, first);
 };
 
+// In the photo report the place under the pointer is told in the picture's pixels, and the command is copied.
+const checkMarks = async (page, size) => {
+  const picture = await page.$('[data-pixels] img');
+  await picture.evaluate((image) => image.scrollIntoView({block: 'start', behavior: 'instant'}));
+  const {x, y, width, height} = await picture.boundingBox();
+  const [left, wide, high] = await page.$eval('[data-pixels]', ({dataset}) => dataset.pixels.split(' ').slice(2).map(Number));
+  const said = () => page.$eval('.pixel', ({textContent}) => textContent);
+  await page.mouse.move(x + (left + wide / 4) * width, y + high / 4 * height);
+  const [, across, down] = /at (\d+), (\d+) px/.exec(await said());
+  assert.ok(Math.abs(across - size[0] / 4) < 6 && Math.abs(down - size[1] / 4) < 6, `${across}, ${down} of ${size}`);
+  await page.mouse.move(x + width / 2, y + (1 + high) / 2 * height);
+  assert.equal(await said(), '');
+  const copy = await page.$('.pictures .copy');
+  assert.match(await page.$eval('.pictures pre', ({textContent}) => textContent), /^repose measure .*heap_01.jpg/);
+  await copy.click();
+  await page.waitForFunction((button) => button.textContent === 'copied', {}, copy);
+};
+
 const folder = mkdtempSync(join(tmpdir(), 'repose-report-'));
 const browser = await puppeteer.launch({executablePath: chromium, headless: true, protocolTimeout: kPatience_ms,
   args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist']});
@@ -221,6 +231,7 @@ try {
         assert.deepEqual(await cutOnPaper(page), []);
         assert.deepEqual(errors, []);
       }
+      if (file === reports[2] && width === 1280) await checkMarks(page, [1600, 1066]);
       await page.close();
     }
   }

@@ -15,7 +15,7 @@ import {mkdirSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import puppeteer from 'puppeteer-core';
-import {button, click, endStudio, kPatience_ms, lookAt, open, startStudio, textOf, until} from './page_driver.mjs';
+import {button, click, end, endAll, kPatience_ms, lookAt, open, startStudio, textOf, until} from './hands.mjs';
 
 const [repose, chromium, pictures] = process.argv.slice(2);
 
@@ -157,7 +157,7 @@ const sit = async (browser, folder) => {
   const {again, errors: later} = await calibrate(browser, page, address);
   await takeAway(browser, again);
   assert.deepEqual([...errors, ...later].filter((text) => !text.includes('400 (Bad Request)')), []);
-  assert.equal(await endStudio(studio), 0);
+  assert.equal(await end(studio, 'SIGINT'), 0);
 };
 
 const folder = mkdtempSync(join(tmpdir(), 'repose-studio-'));
@@ -166,6 +166,7 @@ const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-s
 try {
   await sit(browser, folder);
 } finally {
+  await endAll();
   await browser.close();
   rmSync(folder, {recursive: true});
 }

@@ -13,6 +13,7 @@ using test::ServedFolder;
 using Json = ServedFolder::Json;
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -98,7 +99,7 @@ TEST_F(StudioStudies, EachFieldOfTheFormHasItsFaults) {
     studio_.post("/api/studies", said, 400);
   }
   studio_.post("/api/studies", Json::array(), 400);
-  EXPECT_THAT(studio_.folder.names(), IsEmpty());
+  EXPECT_THAT(studio_.folder.names(), ElementsAre(".repose-studio.lock"));
 }
 
 TEST_F(StudioStudies, WrongCellsAreToldAsTheCommandLineTellsThem) {
@@ -127,7 +128,7 @@ TEST_F(StudioStudies, ASheetIsSavedAsItIsTypedWrongOrNot) {
   start_peas();
   Json cells = Json::parse(R"({"columns": ["drop_mm", "rebound_mm"],
       "rows": [["500", "180,5"], ["", ""], ["500", "a,\"b"]]})");
-  studio_.put(kDrops, cells, 400);  // of no version
+  studio_.put(kDrops, cells, 409);  // of no version
   cells["version"] = experiment("drop").at("sheet").at("version");
   const Json saved = studio_.put(kDrops, cells);
   EXPECT_EQ(saved.at("faults").size(), 1U);
@@ -137,7 +138,7 @@ TEST_F(StudioStudies, ASheetIsSavedAsItIsTypedWrongOrNot) {
   EXPECT_EQ(sheet.at("version"), saved.at("version"));
   EXPECT_EQ(sheet.at("rows").at(1), Json({"500", "a,\"b"}));
   // Another page has the version of before.
-  const Json late = studio_.put(kDrops, cells, 400);
+  const Json late = studio_.put(kDrops, cells, 409);
   EXPECT_THAT(late.at("error"), HasSubstr("was changed meanwhile"));
 }
 
@@ -177,9 +178,10 @@ TEST_F(StudioStudies, TheProtocolIsThatOfTheExperimentAndIsCheckedByIt) {
   change["numbers"] = numbers("250").at("numbers");
   EXPECT_EQ(studio_.put(kNumbers, change).at("saved"), true);
   EXPECT_THAT(studio_.text("peas.toml"), HasSubstr("\nheight_mm = 250\n"));
-  studio_.put(kNumbers, change, 400);  // of the version before
+  studio_.put(kNumbers, change, 409);  // of the version before
   studio_.post(kNumbers, Json{{"numbers", {{"particle", {{"density_kg_m3", "1"}}}}}}, 400);
-  EXPECT_EQ(studio_.folder.names().size(), 2U) << "nothing is left of what was tried";
+  // The study, the folder of its sheets, and the studio's lock.
+  EXPECT_EQ(studio_.folder.names().size(), 3U) << "nothing is left of what was tried";
 }
 
 TEST_F(StudioStudies, ABrokenStudyIsShownWithWhatIsWrong) {

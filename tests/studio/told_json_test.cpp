@@ -67,6 +67,23 @@ TEST(ToldJson, EachFaultIsNamed) {
               ThrowsMessage<base::InputError>(HasSubstr("no object")));
 }
 
+TEST(ToldJson, StrokesAreReadAndWhatIsNoneIsRefused) {
+  const auto strokes = painted_in(
+      Json::parse(R"({"painted": [{"says": "no_heap", "width": 12, "path": [[1, 2], [3, 4]]}]})"));
+  ASSERT_EQ(strokes.size(), 1U);
+  EXPECT_EQ(strokes.front().says, vision::BrushStroke::Says::no_heap);
+  EXPECT_EQ(strokes.front().width_px, 12);
+  EXPECT_EQ(strokes.front().path.back().y, 4);
+  EXPECT_TRUE(painted_in(told_json({})).empty());
+  for (const char* text : {R"({"painted": 1})", R"({"painted": ["x"]})",
+                           R"({"painted": [{"says": "all", "width": 1, "path": []}]})",
+                           R"({"painted": [{"says": "heap", "width": 0, "path": []}]})",
+                           R"({"painted": [{"says": "heap", "width": 1e9, "path": []}]})",
+                           R"({"painted": [{"says": "heap", "width": 2, "path": [[1]]}]})"}) {
+    EXPECT_THROW(painted_in(Json::parse(text)), base::InputError) << text;
+  }
+}
+
 TEST(ToldJson, NumbersThatNoPictureHasAreRefused) {
   for (const char* text : {R"({"heap": [1e300, 0, 10, 10]})", R"({"keep": [[1e9, 2]]})",
                            R"({"ground": [null, 0, 1, 1]})", R"({"scale": {"line": [0,0,1,0],

@@ -189,8 +189,6 @@ cv::Mat draw_mean_outlines(int width, const SetComparison& comparison, const Let
   return image;
 }
 
-constexpr int kFigureWidth = 1400;
-
 std::string set_text(const SetOfHeaps& set, const std::string& title) {
   std::string text = fmt::format("{} · {} of {} heaps", title, set.counted, set.angle_rad.size());
   if (!set.mean_rad) return text + " · no angle";
@@ -232,9 +230,9 @@ Picture draw_heap_sets(const SetComparison& comparison, const HeapSetsNotes& not
   if (!has_outlines && !has_angles) {
     throw base::InputError({.where = "figure", .value = "neither set has an outline or an angle"});
   }
-  if (has_outlines) parts.push_back(draw_mean_outlines(kFigureWidth, comparison, lettering));
-  if (has_angles) parts.push_back(draw_angle_strip(kFigureWidth, comparison.sets, lettering));
-  parts.push_back(draw_text_rows(kFigureWidth, rows_of(comparison, notes), lettering));
+  if (has_outlines) parts.push_back(draw_mean_outlines(notes.width_px, comparison, lettering));
+  if (has_angles) parts.push_back(draw_angle_strip(notes.width_px, comparison.sets, lettering));
+  parts.push_back(draw_text_rows(notes.width_px, rows_of(comparison, notes), lettering));
   cv::Mat whole;
   cv::vconcat(parts, whole);
   Picture figure = blank_picture(whole.cols, whole.rows);

@@ -8,10 +8,13 @@
 
 namespace repose::vision {
 
+inline constexpr int kSetsFigure_px = 1400;
+
 /// What a comparison of sets does not know of itself.
 struct HeapSetsNotes {
   std::array<std::string, 2> titles;  ///< the sets' names
   double margin_rad = 0;
+  int width_px = kSetsFigure_px;  ///< letters and lines grow with it
 };
 
 /// The mean outlines of two sets in one scale, the first solid, the second dashed, each with the

@@ -360,4 +360,13 @@ Picture draw_overlay(const Picture& picture, const ReposeAngle& measured,
   return overlay;
 }
 
+OverlaidArea area_in_overlay(const Picture& picture, const Picture& overlay) {
+  const double scale = drawing_scale(picture);
+  const double width = std::max(1, cvRound(picture.width * scale));
+  const double height = std::max(1, cvRound(picture.height * scale));
+  return {.left = std::floor((overlay.width - width) / 2) / overlay.width,
+          .width = width / overlay.width,
+          .height = height / overlay.height};
+}
+
 }  // namespace repose::vision

@@ -23,4 +23,12 @@ struct OverlayNotes {
 Picture draw_overlay(const Picture& picture, const ReposeAngle& measured,
                      const OverlayNotes& notes = {});
 
+/// Where the picture lies in its overlay, from the top: parts of the overlay's width and height.
+struct OverlaidArea {
+  double left = 0;
+  double width = 1;
+  double height = 1;
+};
+OverlaidArea area_in_overlay(const Picture& picture, const Picture& overlay);
+
 }  // namespace repose::vision

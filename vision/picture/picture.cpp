@@ -125,12 +125,26 @@ void write_picture(const fs::path& file, const Picture& picture) {
   base::write_whole_file(file, std::as_bytes(std::span(content)));
 }
 
+namespace {
+
+void require_pixels(const Picture& picture) {
+  if (!picture.empty()) return;
+  throw base::InputError(
+      {.value = "a picture without pixels cannot be written", .fix = "give one."});
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality) {
-  if (picture.empty()) {
-    throw base::InputError(
-        {.value = "a picture without pixels cannot be written", .fix = "give one."});
-  }
+  require_pixels(picture);
   return encode_jpeg(picture, quality);
+}
+
+std::vector<std::uint8_t> png_of(const Picture& picture) {
+  require_pixels(picture);
+  std::vector<std::uint8_t> content = encode_png(picture);
+  mark_as_made_here(content);
+  return content;
 }
 
 Picture turned(Picture picture, int clockwise_deg) {

@@ -57,6 +57,9 @@ void write_picture(const std::filesystem::path& file, const Picture& picture);
 /// @throws base::InputError  the picture has no pixels.
 std::vector<std::uint8_t> jpeg_of(const Picture& picture, int quality);
 
+/// The content of a PNG file. Likewise.
+std::vector<std::uint8_t> png_of(const Picture& picture);
+
 /// The picture turned clockwise by a multiple of a right angle [deg].
 Picture turned(Picture picture, int clockwise_deg);
 

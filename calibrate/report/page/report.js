@@ -452,6 +452,18 @@
   });
   window.addEventListener('afterprint', () => figures.forEach((figure) => fit(figure, figure.querySelector('.plot').clientWidth)));
 
+  // Where one points in a measured picture, in its own pixels: as hints name places.
+  for (const figure of document.querySelectorAll('[data-pixels]')) {
+    const [wide, high, left, width, height] = figure.dataset.pixels.split(' ').map(Number);
+    const picture = figure.querySelector('img'), said = figure.querySelector('.pixel');
+    picture.addEventListener('pointermove', (event) => {
+      const box = picture.getBoundingClientRect();
+      const x = Math.floor(((event.clientX - box.left) / box.width - left) / width * wide);
+      const y = Math.floor((event.clientY - box.top) / box.height / height * high);
+      said.textContent = x >= 0 && y >= 0 && x < wide && y < high ? `at ${x}, ${y} px` : '';
+    });
+    picture.addEventListener('pointerleave', () => { said.textContent = ''; });
+  }
   for (const copy of document.querySelectorAll('.copy')) {
     copy.addEventListener('click', () => {
       const text = copy.closest('.code').querySelector('pre');

@@ -5,6 +5,13 @@ export type Box = [number, number, number, number];
 export type Line = [number, number, number, number];
 export type Place = [number, number];
 
+// A line with a round brush.
+export interface BrushStroke {
+  says: 'heap' | 'no_heap' | 'nothing';
+  width: number;
+  path: Place[];
+}
+
 // What a person has said of a picture; places in the pixels of the turned picture.
 export interface Told {
   rotate_deg: number;
@@ -19,6 +26,8 @@ export interface Told {
   pitch_deg: number | null;
   window: [number, number];
   definition: string | null;
+  has_mask: boolean;  // saved; what is painted comes over it
+  painted: BrushStroke[];
 }
 
 export interface Side {
@@ -62,6 +71,7 @@ export interface Marks {
 }
 
 export interface Answer {
+  version: string;
   measured: Measured;
   told: Told | null;  // null of scans and files of particles
   marks: Marks | null;
@@ -78,7 +88,10 @@ export interface FileEntry {
 
 export interface Folder {
   folder: string;
+  name: string;
   program: string;
+  command: string;  // that measures all of it
+  largest_upload_bytes: number;
   definitions: {name: string; description: string}[];
   files: FileEntry[];
 }
@@ -100,6 +113,35 @@ export interface SetSummary extends Mean {
   outliers: {file: string; angle_deg: number; score: number; counted: boolean}[];
 }
 
+// What a comparison is of: a folder within this one, or files of it.
+export type SetOfHeaps = {folder: string} | {files: string[]};
+
+export interface HeapFolders {
+  folders: {folder: string; kind: string; heaps: number}[];
+  margin_deg: number;
+}
+
+// As `repose compare --json` has it of two sets.
+export interface Comparison {
+  sets: {name: string; n: number; mean_deg: number | null; sd_deg: number | null; interval_deg: [number, number] | null;
+    heaps: {file: string; angle_deg: number | null}[]}[];
+  angle_difference_deg: number | null;
+  angle_difference_interval: [number, number] | null;
+  verdict: string;
+  margin_deg: number;
+  iou: number | null;
+  heaps_to_tell: number | null;
+  warnings: {code: string; message: string}[];
+}
+
+export interface Compared {
+  number: number;
+  comparison: Comparison;
+  has_figure: boolean;
+  notes: string[];
+  command: string;
+}
+
 export const asked = async <T>(address: string, options: RequestInit = {}): Promise<T> => {
   let response: Response;
   try {
@@ -116,6 +158,8 @@ export const asked = async <T>(address: string, options: RequestInit = {}): Prom
 
 const named = (path: string, file: string) => `${path}?file=${encodeURIComponent(file)}`;
 
+const versioned = (path: string, file: string, version: string) => `${named(path, file)}&version=${encodeURIComponent(version)}`;
+
 // A line without its length is no scale yet.
 const sent = (told: Told) => JSON.stringify(told.scale?.length_mm === null ? {...told, scale: null} : told);
 
@@ -125,12 +169,20 @@ export const api = {
   measured: (file: string) => asked<Answer>(named('/api/measured', file)),
   measure: (file: string, told: Told) =>
     asked<Answer>(named('/api/measure', file), {method: 'POST', body: sent(told)}),
-  save: (file: string, told: Told) =>
-    asked<Answer>(named('/api/hints', file), {method: 'PUT', body: sent(told)}),
-  forget: (file: string) => asked<Answer>(named('/api/hints', file), {method: 'DELETE'}),
+  // Both are refused where the file, or what is saved beside it, is not of that version any more.
+  save: (file: string, told: Told, version: string) =>
+    asked<Answer>(versioned('/api/hints', file, version), {method: 'PUT', body: sent(told)}),
+  forget: (file: string, version: string) => asked<Answer>(versioned('/api/hints', file, version), {method: 'DELETE'}),
   add: (file: File) => asked<{file: string}>(named('/api/file', file.name), {method: 'POST', body: file}),
   // The version makes the browser fetch a picture again that has changed.
   picture: (entry: FileEntry, side: number, rotate_deg: number) =>
-    `${named('/api/picture', entry.file)}&side=${side}&turns=${rotate_deg / 90}&version=${encodeURIComponent(entry.version)}`,
+    `${versioned('/api/picture', entry.file, entry.version)}&side=${side}&turns=${rotate_deg / 90}`,
+  sets: () => asked<HeapFolders>('/api/sets'),
+  compare: (first: SetOfHeaps, second: SetOfHeaps, margin_deg: number) =>
+    asked<Compared>('/api/comparison', {method: 'POST', body: JSON.stringify({first, second, margin_deg})}),
+  // As `repose compare --overlay` draws it.
+  comparisonFigure: (number: number, width: number) => `/files/comparison.png?number=${number}&width=${width}`,
+  comparisonNumbers: (number: number) => `/files/comparison.json?number=${number}`,
+  mask: (file: string, version: string) => versioned('/api/mask', file, version),
   overlay: (file: string) => named('/api/overlay', file),
 };

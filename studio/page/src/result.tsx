@@ -1,7 +1,7 @@
 // What was measured in one picture, and the command line that does the same.
 import {useState} from 'preact/hooks';
-import type {Answer, Side} from './api';
-import {angleText, lengthText} from './text';
+import type {Answer, Folder, Side} from './api';
+import {angleText, lengthText, wayText} from './text';
 
 export const Badge = ({status}: {status: string}) => <span class={`badge ${status}`}>{status}</span>;
 
@@ -9,7 +9,7 @@ const SideRow = ({name, side}: {name: string; side: Side | null}) => side && (
   <tr><th scope="row">{name}</th><td>{side.angle_deg === null ? side.status : angleText(side)}</td></tr>
 );
 
-const Command = ({text}: {text: string}) => {
+export const Command = ({text}: {text: string}) => {
   const [is_copied, setCopied] = useState(false);
   const copy = async () => {
     await navigator.clipboard.writeText(text);
@@ -27,6 +27,7 @@ const Command = ({text}: {text: string}) => {
 
 interface Props {
   answer: Answer;
+  definitions: Folder['definitions'];
   has_changes: boolean;
   needs_length: boolean;  // of a line that was drawn
   is_saved: boolean;
@@ -38,7 +39,7 @@ interface Props {
   propose: () => void;
 }
 
-export const Result = ({answer, has_changes, needs_length, is_saved, is_told_here, can_undo, undo, save, forget, propose}: Props) => {
+export const Result = ({answer, definitions, has_changes, needs_length, is_saved, is_told_here, can_undo, undo, save, forget, propose}: Props) => {
   const {measured, proposed, command} = answer;
   return (
     <section class="result" aria-label="Result">
@@ -56,8 +57,7 @@ export const Result = ({answer, has_changes, needs_length, is_saved, is_told_her
             <tr><th scope="row">height</th><td>{lengthText(measured.height_mm, measured.height_mm_uncertainty)}</td></tr>}
           {measured.base_mm !== null &&
             <tr><th scope="row">base</th><td>{lengthText(measured.base_mm, measured.base_mm_uncertainty)}</td></tr>}
-          {measured.window && <tr><th scope="row">by</th>
-            <td>{measured.definition ?? `${100 * measured.window[0]}–${100 * measured.window[1]} % of the height`}</td></tr>}
+          {measured.window && <tr><th scope="row">by</th><td>{wayText(measured, definitions)}</td></tr>}
         </tbody>
       </table>
       {measured.warnings.map(({code, message}) => <p class="warning" key={code}>{message}</p>)}

@@ -1,8 +1,10 @@
 // All files as repeats of one experiment: their mean, a dot for each, a table to sort.
-import {useEffect, useState} from 'preact/hooks';
-import type {Answer, FileEntry, Measured, SetSummary} from './api';
+import {useEffect, useRef, useState} from 'preact/hooks';
+import type {Answer, FileEntry, Folder, Measured, SetSummary} from './api';
 import {api} from './api';
-import {Badge} from './result';
+import {ComparisonView} from './comparison';
+import {savePicture, saveVector} from './figure';
+import {Badge, Command} from './result';
 import {angleText, meanText} from './text';
 
 interface Row {
@@ -85,7 +87,7 @@ const kColumns: {key: Key; name: string}[] = [
 ];
 
 interface Props {
-  folder: string;
+  folder: Folder;
   files: FileEntry[];
   answers: Map<string, Answer>;
   choose: (file: string) => void;
@@ -94,7 +96,15 @@ interface Props {
 export const SetView = ({folder, files, answers, choose}: Props) => {
   const [set, setSet] = useState<SetSummary | null>(null);
   const [error, setError] = useState('');
+  const [ticked, setTicked] = useState<[Set<string>, Set<string>]>([new Set(), new Set()]);
+  const plot = useRef<HTMLDivElement>(null);
   const [order, setOrder] = useState<{key: Key; down: boolean}>({key: 'file', down: false});
+  const tick = (side: 0 | 1, file: string) => setTicked((before) => {
+    const after = new Set(before[side]);
+    if (!after.delete(file)) after.add(file);
+    return side === 0 ? [after, before[1]] : [before[0], after];
+  });
+  const inOrder = (side: 0 | 1) => files.map(({file}) => file).filter((file) => ticked[side].has(file));
   const versions = files.map(({version}) => version).join();
   const missing = files.filter(({file}) => !answers.has(file)).length;
   useEffect(() => {
@@ -131,11 +141,18 @@ export const SetView = ({folder, files, answers, choose}: Props) => {
           ].filter(Boolean).join('; ')}</p>
         </>}
       </div>
-      {set && missing === 0 && <DotPlot rows={rows} set={set} choose={choose} />}
+      {set && missing === 0 && <div ref={plot}><DotPlot rows={rows} set={set} choose={choose} /></div>}
       <p class="downloads">
+        {set?.mean_deg != null && missing === 0 && <>
+          <button type="button" class="link" onClick={() => saveVector(plot.current!.querySelector('svg')!, 'angles.svg')}>Plot as SVG</button>
+          <button type="button" class="link" onClick={() => void savePicture(plot.current!.querySelector('svg')!, 'angles.png')}>Plot as PNG</button>
+        </>}
+        <a href="/files/angles.xlsx" download="angles.xlsx">Table as XLSX</a>
         <a href="/files/angles.csv" download="angles.csv">Table as CSV</a>
         <a href="/files/photos.html" download="photos.html">Photo report</a>
       </p>
+      <Command text={folder.command} />
+      <ComparisonView ticked={[inOrder(0), inOrder(1)]} />
       <div class="scrolled" tabIndex={0} role="region" aria-label="Table of pictures">
         <table>
           <thead><tr><th><span class="unseen">look</span></th>
@@ -144,7 +161,8 @@ export const SetView = ({folder, files, answers, choose}: Props) => {
                 <button type="button" onClick={() => setOrder({key, down: order.key === key && !order.down})}>
                   {name}{order.key === key ? (order.down ? ' ↓' : ' ↑') : ''}</button>
               </th>
-            ))}</tr></thead>
+            ))}
+            <th>1st set</th><th>2nd set</th></tr></thead>
           <tbody>
             {sorted.map(({entry, measured, rotate_deg}) => (
               <tr key={entry.file}>
@@ -154,13 +172,15 @@ export const SetView = ({folder, files, answers, choose}: Props) => {
                 <td>{angleText(measured)}</td>
                 <td>{cell(measured, 'left')}</td>
                 <td>{cell(measured, 'right')}</td>
+                {([0, 1] as const).map((side) => (
+                  <td class="tick"><input type="checkbox" checked={ticked[side].has(entry.file)} onChange={() => tick(side, entry.file)}
+                    aria-label={`${entry.file} in the ${side === 0 ? 'first' : 'second'} set`} /></td>
+                ))}
               </tr>
             ))}
           </tbody>
         </table>
       </div>
-      <div class="command"><h3>The same on the command line</h3>
-        <code>repose measure '{folder}' --csv angles.csv --report photos.html</code></div>
     </section>
   );
 };

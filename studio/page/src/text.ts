@@ -1,10 +1,24 @@
 // How results are said.
-import type {Mean, Measured} from './api';
+import type {Comparison, Folder, Mean, Measured} from './api';
 
 export const angleText = (measured: Pick<Measured, 'angle_deg' | 'uncertainty_deg'>) => {
   if (measured.angle_deg === null) return 'no angle';
   const angle = measured.angle_deg.toFixed(2);
   return measured.uncertainty_deg === null ? `${angle}°` : `${angle} ± ${measured.uncertainty_deg.toFixed(2)}°`;
+};
+
+// What the angle is by: its definition in words, or the window that was asked for instead.
+export const wayText = ({definition, window}: Measured, definitions: Folder['definitions']) => {
+  const known = definitions.find(({name}) => name === definition);
+  if (known) return `${known.name}: ${known.description}`;
+  return window && `${Math.round(100 * window[0])}–${Math.round(100 * window[1])} % of the height`;
+};
+
+export const differenceText = ({angle_difference_deg, angle_difference_interval, margin_deg}: Comparison) => {
+  if (angle_difference_deg === null || !angle_difference_interval) return 'no difference: that needs two heaps with an angle in one of the sets';
+  const [low, high] = angle_difference_interval;
+  const signed = (angle: number) => angle.toFixed(2).replace('-', '−');
+  return `first − second: ${signed(angle_difference_deg)}°, 95 % interval ${signed(low)} … ${signed(high)}° (Welch); below ${margin_deg}° negligible`;
 };
 
 export const lengthText = (value: number | null, half: number | null) =>

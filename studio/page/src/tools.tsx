@@ -1,7 +1,25 @@
 // What can be said of a picture: tools for the hand, and the same as numbers for the keyboard.
 import {useState} from 'preact/hooks';
 import type {Box, Folder, Line, Place, Told} from './api';
-import type {Tool} from './viewer';
+import type {Brush, Tool} from './viewer';
+
+const kSays: {says: Brush['says']; name: string}[] = [
+  {says: 'heap', name: 'heap'}, {says: 'no_heap', name: 'not heap'}, {says: 'nothing', name: 'take back'},
+];
+
+const BrushTools = ({brush, setBrush}: {brush: Brush; setBrush: (brush: Brush) => void}) => (
+  <div class="brush">
+    <div role="radiogroup" aria-label="What the brush says" class="tools">
+      {kSays.map(({says, name}) => (
+        <button type="button" role="radio" aria-checked={brush.says === says} onClick={() => setBrush({...brush, says})}>{name}</button>
+      ))}
+    </div>
+    <label>Brush {Math.round(100 * brush.width)} % of the height
+      <input type="range" min="0.01" max="0.15" step="0.01" value={brush.width}
+        onInput={({currentTarget}) => setBrush({...brush, width: currentTarget.valueAsNumber})} />
+    </label>
+  </div>
+);
 
 interface Props {
   told: Told;
@@ -17,11 +35,12 @@ const kTools: {tool: Tool; name: string; help: string}[] = [
   {tool: 'ground', name: 'Ground', help: 'Drag along the line that the heap stands on, or drag its ends'},
   {tool: 'keep', name: 'Keep', help: 'Click on what belongs to the heap'},
   {tool: 'drop', name: 'Drop', help: 'Click on what does not'},
+  {tool: 'paint', name: 'Paint', help: 'Paint over what belongs to the heap, and over what does not'},
   {tool: 'exclude', name: 'Leave out', help: 'Drag a box over a hand, a timer or a label'},
   {tool: 'length', name: 'Length', help: 'Drag along a known length, then say how many mm it is'},
 ];
 
-export const Toolbar = ({told, tool, choose, tell}: Props) => (
+export const Toolbar = ({told, tool, choose, tell, brush, setBrush}: Props & {brush: Brush; setBrush: (brush: Brush) => void}) => (
   <div class="toolbar">
     <div role="radiogroup" aria-label="Tool" class="tools">
       {kTools.map(({tool: one, name, help}) => (
@@ -30,6 +49,7 @@ export const Toolbar = ({told, tool, choose, tell}: Props) => (
     </div>
     <button type="button" title="Turn the picture clockwise by 90°"
       onClick={() => tell({...told, rotate_deg: (told.rotate_deg + 90) % 360}, true)}>Turn 90°</button>
+    {tool === 'paint' && <BrushTools brush={brush} setBrush={setBrush} />}
     {tool === 'length' && told.scale && (
       <label class="length">Its length in mm
         <input type="number" min="0" step="any" required value={told.scale.length_mm ?? ''}

@@ -1,10 +1,16 @@
 // The picture with what was measured in it, and the tools that say more of it: zoomed by wheel, pinch and
 // keys, moved by dragging.
 import {useEffect, useRef, useState} from 'preact/hooks';
-import type {Box, FileEntry, Line, Marks, Place, Told} from './api';
+import type {Box, BrushStroke, FileEntry, Line, Marks, Place, Told} from './api';
 import {api} from './api';
 
-export type Tool = 'move' | 'box' | 'ground' | 'keep' | 'drop' | 'exclude' | 'length';
+export type Tool = 'move' | 'box' | 'ground' | 'keep' | 'drop' | 'paint' | 'exclude' | 'length';
+
+// What the brush says, and how wide it is: a part of the picture's height.
+export interface Brush {
+  says: BrushStroke['says'];
+  width: number;
+}
 
 // The part of the picture that is shown.
 interface View {
@@ -19,6 +25,7 @@ interface Props {
   marks: Marks | null;
   told: Told | null;
   tool: Tool;
+  brush: Brush;
   // A change of what is told; `ends` when the hand lets go.
   tell: (told: Told, ends: boolean) => void;
 }
@@ -81,6 +88,18 @@ const Said = ({told, size}: {told: Told; size: number}) => (
   </g>
 );
 
+// What is painted: saved as a mask, whose grey is left out, and not yet.
+const Painted = ({entry, told, marks}: {entry: FileEntry; told: Told; marks: Marks}) => (
+  <g class="painted">
+    {told.has_mask && (
+      <image class="mask" href={api.mask(entry.file, entry.version)} width={marks.width} height={marks.height} preserveAspectRatio="none" />
+    )}
+    {told.painted.map(({says, width, path}) => (
+      <polyline class={says} points={points(path.length === 1 ? [...path, ...path] : path)} style={{strokeWidth: `${width}px`}} />
+    ))}
+  </g>
+);
+
 // The ends of a line, to be dragged.
 const Ends = ({line, name, size}: {line: Line; name: string; size: number}) => (
   <>
@@ -89,12 +108,13 @@ const Ends = ({line, name, size}: {line: Line; name: string; size: number}) => (
   </>
 );
 
-export const Viewer = ({entry, marks, told, tool, tell}: Props) => {
+export const Viewer = ({entry, marks, told, tool, brush, tell}: Props) => {
   const svg = useRef<SVGSVGElement>(null);
   const [view, setView] = useState<View | null>(null);
   // Where hands are, and what they began with.
   const hands = useRef(new Map<number, Place>());
   const drag = useRef<{from: Place; told: Told; view: View; end: number | null} | null>(null);
+  const stroke = useRef<Place[]>([]);  // that is being painted
   const shape = marks ? `${marks.width}x${marks.height}` : '';
   useEffect(() => setView(null), [entry.file, shape]);
 
@@ -132,8 +152,13 @@ export const Viewer = ({entry, marks, told, tool, tell}: Props) => {
   const moved = (line: Line, end: number, [x, y]: Place): Line =>
     end === 0 ? [round(x), round(y), line[2], line[3]] : [line[0], line[1], round(x), round(y)];
 
+  const paintedTo = (from: Told, place: Place): Told => {
+    stroke.current = [...stroke.current, [round(place[0]), round(place[1])]];
+    return {...from, painted: [...from.painted, {says: brush.says, width: round(brush.width * marks.height), path: stroke.current}]};
+  };
   const down = (event: PointerEvent) => {
     const place = placeAt(event, shown);
+    stroke.current = [];
     hands.current.set(event.pointerId, [event.clientX, event.clientY]);
     svg.current!.setPointerCapture(event.pointerId);
     const end = (event.target as Element).getAttribute('data-end');
@@ -156,6 +181,8 @@ export const Viewer = ({entry, marks, told, tool, tell}: Props) => {
       tell({...began.told, ground: moved(began.told.ground ?? marks.ground ?? ground, began.end, place)}, false);
     } else if (began.end !== null && tool === 'length' && told.scale) {
       tell({...began.told, scale: {...told.scale, line: moved(told.scale.line, began.end, place)}}, false);
+    } else if (tool === 'paint') {
+      tell(paintedTo(began.told, place), false);
     } else if (tool === 'move') {
       setView({...began.view, x: began.view.x + began.from[0] - place[0], y: began.view.y + began.from[1] - place[1]});
     } else if (Math.hypot(place[0] - began.from[0], place[1] - began.from[1]) > 4 * pixel) {
@@ -168,7 +195,7 @@ export const Viewer = ({entry, marks, told, tool, tell}: Props) => {
     if (hands.current.size > 0 || !began) return;
     drag.current = null;
     const place = placeAt(event, shown);
-    const click = toldByClick(tool, told, place);
+    const click = tool === 'paint' ? paintedTo(began.told, place) : toldByClick(tool, told, place);
     if (click !== told || told !== began.told) tell(click, true);
   };
 
@@ -178,6 +205,7 @@ export const Viewer = ({entry, marks, told, tool, tell}: Props) => {
         style={{aspectRatio: `${marks.width} / ${marks.height}`}} role="img" aria-label={`${entry.file} with what was measured`}
         onPointerDown={down} onPointerMove={move} onPointerUp={up} onPointerCancel={up}>
         <image href={api.picture(entry, 2400, told.rotate_deg)} width={marks.width} height={marks.height} preserveAspectRatio="none" />
+        <Painted entry={entry} told={told} marks={marks} />
         <Drawn marks={marks} />
         <Said told={told} size={7 * pixel} />
         {tool === 'ground' && ground && <Ends line={ground} name="ground" size={9 * pixel} />}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "base/input_error.h"
+
+/// What the page is answered, whatever it asked.
+namespace repose::studio {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr const char* kJson = "application/json";
+
+inline std::string text_of(const Json& json) {
+  // File names need not be UTF-8, JSON must be.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// What was changed elsewhere since its version was looked at, and is not written over.
+class ChangedMeanwhile : public base::InputError {
+  using base::InputError::InputError;
+};
+
+}  // namespace repose::studio

@@ -1,0 +1,125 @@
+// What hands do at the studio's page, and eyes: starting it, clicks, drags, drops, looking.
+import assert from 'node:assert/strict';
+import {spawn} from 'node:child_process';
+import {readFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {basename, dirname, join, resolve as absolute} from 'node:path';
+import {openWatched} from '../support/watched_page.mjs';
+
+export const kPatience_ms = 120_000;
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const studios = [];
+
+// From the folder above, as one would type it: what the page shows then has no place of this machine.
+// With `room_kb` no file can be written that is larger, as on a disk that is full.
+export const startStudio = (repose, folder, {room_kb} = {}) => new Promise((resolve, reject) => {
+  const limit = room_kb ? `trap '' XFSZ; ulimit -f ${room_kb * 1024 / 512};` : '';
+  const studio = spawn('sh', ['-c', `${limit} exec "$0" studio "$1" --no-browser`, absolute(repose), basename(folder)], {cwd: dirname(folder)});
+  studios.push(studio);
+  let said = '', complaint = '';
+  studio.stdout.on('data', (text) => {
+    said += text;
+    if (said.includes('\n')) resolve({studio, address: said.trim()});
+  });
+  studio.stderr.on('data', (text) => { complaint += text; });
+  studio.on('exit', (code) => reject(new Error(`repose studio ended with ${code}: ${complaint}`)));
+});
+
+// Its exit code.
+export const end = (studio, signal) => {
+  studio.removeAllListeners('exit');
+  const ended = new Promise((resolve) => studio.on('exit', (code) => resolve(code)));
+  studio.kill(signal);
+  return ended;
+};
+
+// For the end of a test, however it ends.
+export const endAll = async () => {
+  for (const studio of studios) {
+    if (studio.exitCode === null && studio.signalCode === null) await end(studio, 'SIGKILL');
+  }
+};
+
+export const open = async (browser, address) => {
+  const {page, errors} = await openWatched(browser, address,
+    {width: 1280, patience_ms: kPatience_ms, isOwn: (url) => url.replace(/^blob:/, '').startsWith(new URL(address).origin)});
+  await page.waitForSelector('header');
+  return {page, errors};
+};
+
+export const drop = async (page, files) => {
+  const client = await page.createCDPSession();
+  const data = {items: [], files, dragOperationsMask: 1};
+  for (const type of ['dragEnter', 'dragOver', 'drop']) await client.send('Input.dispatchDragEvent', {type, x: 500, y: 400, data});
+};
+
+export const textOf = (page, selector) => page.$eval(selector, (element) => element.textContent);
+export const button = (page, name) => page.waitForSelector(`::-p-xpath(//button[normalize-space()='${name}'])`);
+// After a change of the window's size things still move.
+const atRest = (element) => element.evaluate(async (moved) => {
+  for (let last = '', same = 0; same < 3; ) {
+    await new Promise(requestAnimationFrame);
+    const {x, y} = moved.getBoundingClientRect(), now = `${x} ${y}`;
+    same = now === last ? same + 1 : 0;
+    last = now;
+  }
+});
+export const click = async (page, name) => {
+  // One that cannot be pressed yet is waited for, as a hand would.
+  const found = await page.waitForSelector(`::-p-xpath(//button[normalize-space()='${name}'][not(@disabled)])`);
+  await atRest(found);
+  await found.click();
+};
+export const isOff = async (page, name) => (await button(page, name)).evaluate(({disabled}) => disabled);
+export const until = async (page, test, ...values) => {
+  try {
+    return await page.waitForFunction(test, {}, ...values);
+  } catch (error) {
+    throw new Error(`${error.message}. Waited for ${test}. The page says:\n${await page.evaluate(() => document.body.innerText)}`);
+  }
+};
+export const untilMeasured = (page, count) => until(page, (wanted) => document.querySelectorAll('.files .badge').length === wanted, count);
+export const angle = (page) => textOf(page, '.result .angle');
+export const choose = async (page, name) => {
+  const found = await page.$(`::-p-xpath(//nav//button[contains(., '${name}')])`);
+  await atRest(found);
+  await found.click();
+  await until(page, (wanted) => document.querySelector('.picture h2').textContent === wanted, name);
+  await page.waitForSelector('.viewer svg .flank');
+};
+
+// Where a point of the picture lies on the screen.
+export const onScreen = (page, x, y) => page.$eval('.viewer svg', (svg, px, py) => {
+  const at = new DOMPoint(px, py).matrixTransform(svg.getScreenCTM());
+  return [at.x, at.y];
+}, x, y);
+
+export const drag = async (page, from, to) => {
+  await atRest(await page.$('.viewer svg'));
+  await page.mouse.move(...await onScreen(page, ...from));
+  await page.mouse.down();
+  await page.mouse.move(...await onScreen(page, ...to), {steps: 6});
+  await page.mouse.up();
+};
+
+const serious = async (page) => {
+  await page.evaluate(axe);
+  const {violations} = await page.evaluate(() => window.axe.run());
+  return violations.filter(({impact}) => impact === 'serious' || impact === 'critical')
+    .map(({id, nodes}) => `${id}: ${nodes.map(({html}) => html.slice(0, 120)).join(' | ')}`);
+};
+
+// On a desk and on a telephone, light and dark.
+export const lookAt = async (page, name, pictures) => {
+  for (const scheme of ['light', 'dark']) {
+    await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
+    for (const width of [1280, 390]) {
+      await page.setViewport({width, height: 900});
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false, `${name} is wider than ${width} px`);
+      assert.deepEqual(await serious(page), [], `${name}, ${scheme}, ${width} px`);
+      if (pictures) await page.screenshot({path: join(pictures, `${name}_${scheme}_${width}.png`), fullPage: true});
+    }
+  }
+  await page.emulateMediaFeatures([]);
+  await page.setViewport({width: 1280, height: 900});
+};
