@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,11 @@
 
 namespace repose::bench {
 namespace {
+
+std::vector<dem::Grain> last_frame(const std::filesystem::path& folder) {
+  const std::vector<calibrate::FrameGrain> frame = calibrate::frames_of(folder).back();
+  return {frame.begin(), frame.end()};
+}
 
 using dem::Vector;
 
@@ -117,7 +123,7 @@ Packing settled_spheres(const testing::TemporaryFolder& folder, int grains) {
   for (int k = 0; k < poured.grain_count(); ++k) packing.grains.push_back(poured.grain(k));
   packing.steps = steps_for(kSphereStepsARun, packing.grains.size());
   const Vector room = Vector::Constant(3 * packing.setup.kinds[0].shape.reach_m());
-  folder.write("spheres.txt", testing::data_of(packing.setup, packing.grains, room));
+  folder.write("spheres.txt", calibrate::data_of(packing.setup, packing.grains, room));
   return packing;
 }
 
@@ -132,18 +138,18 @@ Packing settled_clumps(const testing::TemporaryFolder& folder, int grains) {
   const double fall_s = std::sqrt(2 * height / kStandardGravity_m_s2);
   const auto steps = static_cast<int>((fall_s + .3) / packing.setup.timestep_s);
   folder.write("clump.txt", clump_file(shape));
-  testing::DeckOptions options;
+  calibrate::DeckOptions options;
   options.start =
       fmt::format("region box block -{0} {0} -{0} {0} -.02 {1} units box\ncreate_box {2} box",
                   1.2 * radius, height + .05, packing.setup.contacts.size());
   options.insertion = pouring_commands(shape, packing.setup.contacts.material(0).density_kg_m3,
                                        radius, height, grains);
   options.integrator = packing.integrator;
-  testing::run_liggghts(folder, testing::deck_of(packing.setup, options) +
+  testing::run_liggghts(folder, calibrate::deck_of(packing.setup, options) +
                                     fmt::format("run 1\nunfix pour\nrun {}\nwrite_restart "
                                                 "packing.restart\n{}run 1\n",
-                                                steps, testing::dump_command(1)));
-  packing.grains = clumps_from(shape, testing::frames_of(folder.path()).back());
+                                                steps, calibrate::dump_command(1)));
+  packing.grains = clumps_from(shape, last_frame(folder.path()));
   if (std::ssize(packing.grains) != grains) {
     throw std::runtime_error(
         fmt::format("LIGGGHTS got {} of {} clumps into the tube", packing.grains.size(), grains));
@@ -165,11 +171,11 @@ Race::Race(const testing::TemporaryFolder& folder, Packing packing, double skin_
 }
 
 std::string Race::their_deck(const std::string& start) const {
-  testing::DeckOptions options;
+  calibrate::DeckOptions options;
   options.start = start;
   options.integrator = packing_.integrator;
   options.skin_m = skin_m_;
-  return testing::deck_of(packing_.setup, options) + "thermo 1000000\n";
+  return calibrate::deck_of(packing_.setup, options) + "thermo 1000000\n";
 }
 
 Timing Race::time_ours() {
@@ -186,7 +192,7 @@ Timing Race::time_ours() {
 Timing Race::time_theirs() {
   Timing timing = run_theirs(packing_.steps);
   timing.cpu_s -= their_overhead_s_;
-  const std::vector<dem::Grain> spheres = testing::frames_of(folder_.path()).back();
+  const std::vector<dem::Grain> spheres = last_frame(folder_.path());
   const dem::ClumpShape& shape = packing_.setup.kinds[0].shape;
   // Where its grains are, our engine finds the contacts: counted alike.
   dem::Simulation simulation = simulation_of(
@@ -199,7 +205,7 @@ Timing Race::time_theirs() {
 Timing Race::run_theirs(std::int64_t steps) {
   const testing::Finished finished = testing::run_liggghts(
       folder_, their_deck(kRestart) +
-                   fmt::format("run 1\nrun {}\n{}run 1\n", steps, testing::dump_command(1)));
+                   fmt::format("run 1\nrun {}\n{}run 1\n", steps, calibrate::dump_command(1)));
   return {loop_time_s(finished.out, 1), finished.cpu_s};
 }
 
