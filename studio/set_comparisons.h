@@ -16,7 +16,6 @@ namespace repose::studio {
 /// All of it throws base::InputError for a name or a number that is not there.
 class SetComparisons {
  public:
-
   explicit SetComparisons(const PictureFolder& pictures) : pictures_(pictures) {}
 
   /// `folders` within the studio's that hold heaps [{`folder`, `kind`, `heaps`}], and `margin_deg`.

@@ -8,7 +8,7 @@ if(NOT CLANG_FORMAT)
 endif()
 
 set(patterns)
-foreach(folder base vision dem render calibrate facade cli tests)
+foreach(folder base vision dem render calibrate facade cli studio tests)
   list(APPEND patterns ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.h)
 endforeach()
 file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${patterns})
