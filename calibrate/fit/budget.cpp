@@ -20,19 +20,27 @@ std::vector<double> bought(const std::vector<Experiment>& experiments,
                            const std::vector<double>& weights, double seconds) {
   double sum = 0;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    sum += weights[i] * std::sqrt(experiments[i].run_s);
+    sum += weights[i] * std::sqrt(usual_run_s(experiments[i]));
   }
   std::vector<double> counts;
   for (std::size_t i = 0; i < experiments.size(); ++i) {
-    counts.push_back(sum > 0 ? seconds * weights[i] / std::sqrt(experiments[i].run_s) / sum : 0);
+    counts.push_back(sum > 0 ? seconds * weights[i] / std::sqrt(usual_run_s(experiments[i])) / sum
+                             : 0);
   }
   return counts;
 }
 
 }  // namespace
 
+int full_runs_of_first_round(const Experiment& experiment) {
+  constexpr int kFull = 4;
+  return experiment.coarse ? kFull : 0;
+}
+
 Cost minimum_cost(const Experiment& experiment) {
-  return {.seconds = least_jobs(experiment) * experiment.run_s, .jobs = least_jobs(experiment)};
+  const int full = full_runs_of_first_round(experiment);
+  return {.seconds = least_jobs(experiment) * usual_run_s(experiment) + full * experiment.run_s,
+          .jobs = least_jobs(experiment) + full};
 }
 
 Cost minimum_cost(const Problem& problem) {
@@ -63,7 +71,7 @@ std::vector<int> first_round_jobs(const Problem& problem) {
     const double most = std::max(kMaxPerDimension * dimensions, least_jobs(experiments[i]));
     extra.push_back(std::max(0., std::min(counts[i], most) - least_jobs(experiments[i])));
     extra_jobs += extra.back();
-    extra_s += extra.back() * experiments[i].run_s;
+    extra_s += extra.back() * usual_run_s(experiments[i]);
   }
   double fraction = 1;
   if (extra_jobs > 0)
@@ -88,11 +96,11 @@ std::vector<int> round_jobs(const Problem& problem, const std::vector<double>& n
   for (std::size_t i = 0; i < experiments.size(); ++i) {
     if (need[i] <= 0) continue;
     const int most = kMaxPerDimension * static_cast<int>(experiments[i].parameters.size());
-    const int affordable = static_cast<int>(std::min(seconds / experiments[i].run_s, 1e6));
+    const int affordable = static_cast<int>(std::min(seconds / usual_run_s(experiments[i]), 1e6));
     // Wanted at all is one run at least.
     const int wanted = static_cast<int>(std::clamp(std::round(counts[i]), 1., 1e6));
     jobs[i] = std::max(0, std::min({wanted, most, affordable, count}));
-    seconds -= jobs[i] * experiments[i].run_s;
+    seconds -= jobs[i] * usual_run_s(experiments[i]);
     count -= jobs[i];
   }
   return jobs;

@@ -12,62 +12,12 @@
 #include <Eigen/Core>
 #include <ceres/ceres.h>
 
+#include "calibrate/fit/covariance.h"
 #include "calibrate/fit/fit_watch.h"
 
 namespace repose::calibrate {
 
-/// How values at two points of the unit box vary together, in variances of the data.
-///
-/// k(x, x') = signal^2 M(r) + trend^2 s.s' + level^2, with s = (x - 1/2) / length, r = |s - s'|,
-/// M(r) = (1 + sqrt5 r + 5/3 r^2) exp(-sqrt5 r): Matern 5/2, Rasmussen and Williams (2006) eq.
-/// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. On the runs' diagonal is noise^2 besides,
-/// by the number of runs that a value is the mean of, and a value's own variance, which is known.
-class Covariance {
- public:
-  /// @param counts  of runs that each value is the mean of; empty: of one
-  /// @param own_variances  variance of each value beside the noise; empty: none has any
-  explicit Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts = {},
-                      const Eigen::ArrayXd& own_variances = {});
-
-  /// Between all runs (rows of x), noise included.
-  Eigen::MatrixXd of_runs(const Eigen::MatrixXd& x) const;
-  /// (x - 1/2) / length, row by row.
-  Eigen::MatrixXd scaled(const Eigen::MatrixXd& x) const;
-  /// Between one place and all runs, whose rows are scaled() already; `slopes` (a row per run) with
-  /// the place's coordinates.
-  void with_runs(const Eigen::MatrixXd& scaled_runs,
-                 const Eigen::Ref<const Eigen::RowVectorXd>& here, Eigen::VectorXd& k,
-                 Eigen::MatrixXd* slopes) const;
-  double own(const Eigen::Ref<const Eigen::RowVectorXd>& here) const;
-  Eigen::RowVectorXd own_gradient(const Eigen::Ref<const Eigen::RowVectorXd>& here) const;
-
-  /// Sums of weight(i, j) dk(i, j) / d(log of a hyperparameter): lengths, signal, trend, noise.
-  Eigen::VectorXd weighted_gradient(const Eigen::MatrixXd& x, const Eigen::MatrixXd& weight) const;
-
- private:
-  Eigen::RowVectorXd length_;
-  double signal2_;
-  double trend2_;
-  double noise2_;
-  Eigen::ArrayXd counts_;
-  Eigen::ArrayXd own_variances_;
-};
-
 namespace {
-
-constexpr double kRoot5 = 2.2360679774997896964;
-
-constexpr double kLevel2 = 4;  // the mean of the data is no surprise within two of their sd's
-
-/// `decay` is exp(-sqrt5 r).
-double matern(double r, double decay) { return (1 + kRoot5 * r + 5. / 3 * r * r) * decay; }
-
-double matern(double r) { return matern(r, std::exp(-kRoot5 * r)); }
-
-/// -M'(r) / r, finite at 0.
-double matern_slope(double r, double decay) { return 5. / 3 * (1 + kRoot5 * r) * decay; }
-
-double matern_slope(double r) { return matern_slope(r, std::exp(-kRoot5 * r)); }
 
 Eigen::MatrixXd as_rows(const std::vector<Point>& points) {
   const auto rows = static_cast<Eigen::Index>(points.size());
@@ -80,92 +30,6 @@ Eigen::MatrixXd as_rows(const std::vector<Point>& points) {
   return matrix;
 }
 
-}  // namespace
-
-Covariance::Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts,
-                       const Eigen::ArrayXd& own_variances)
-    : length_(Eigen::Map<const Eigen::RowVectorXd>(hyper.length.data(),
-                                                   static_cast<Eigen::Index>(hyper.length.size()))),
-      signal2_(hyper.signal * hyper.signal),
-      trend2_(hyper.trend * hyper.trend),
-      noise2_(hyper.noise * hyper.noise),
-      counts_(counts),
-      own_variances_(own_variances) {}
-
-Eigen::MatrixXd Covariance::scaled(const Eigen::MatrixXd& x) const {
-  return (x.array() - .5).rowwise() / length_.array();
-}
-
-Eigen::MatrixXd Covariance::of_runs(const Eigen::MatrixXd& x) const {
-  const Eigen::MatrixXd s = scaled(x);
-  Eigen::MatrixXd k = trend2_ * (s * s.transpose());
-  for (Eigen::Index j = 0; j < s.rows(); ++j) {
-    for (Eigen::Index i = 0; i < j; ++i) {
-      k(i, j) += kLevel2 + signal2_ * matern((s.row(i) - s.row(j)).norm());
-      k(j, i) = k(i, j);
-    }
-    k(j, j) += kLevel2 + signal2_ + (counts_.size() > 0 ? noise2_ / counts_(j) : noise2_);
-    if (own_variances_.size() > 0) k(j, j) += own_variances_(j);
-  }
-  return k;
-}
-
-void Covariance::with_runs(const Eigen::MatrixXd& scaled_runs,
-                           const Eigen::Ref<const Eigen::RowVectorXd>& here, Eigen::VectorXd& k,
-                           Eigen::MatrixXd* slopes) const {
-  const Eigen::RowVectorXd s = (here.array() - .5) / length_.array();
-  k.noalias() = trend2_ * (scaled_runs * s.transpose());
-  const Eigen::VectorXd distance = (scaled_runs.rowwise() - s).rowwise().norm();
-  for (Eigen::Index i = 0; i < k.size(); ++i) {
-    k(i) += kLevel2 + signal2_ * matern(distance(i));
-  }
-  if (slopes == nullptr) return;
-  for (Eigen::Index i = 0; i < k.size(); ++i) {
-    slopes->row(i) = (trend2_ * scaled_runs.row(i) -
-                      signal2_ * matern_slope(distance(i)) * (s - scaled_runs.row(i)))
-                         .array() /
-                     length_.array();
-  }
-}
-
-double Covariance::own(const Eigen::Ref<const Eigen::RowVectorXd>& here) const {
-  return kLevel2 + signal2_ + trend2_ * ((here.array() - .5) / length_.array()).square().sum();
-}
-
-Eigen::RowVectorXd Covariance::own_gradient(
-    const Eigen::Ref<const Eigen::RowVectorXd>& here) const {
-  return 2 * trend2_ * (here.array() - .5) / length_.array().square();
-}
-
-Eigen::VectorXd Covariance::weighted_gradient(const Eigen::MatrixXd& x,
-                                              const Eigen::MatrixXd& weight) const {
-  const Eigen::MatrixXd s = scaled(x);
-  const Eigen::Index d = s.cols();
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(d + 3);
-  Eigen::ArrayXd square(d);
-  for (Eigen::Index j = 0; j < s.rows(); ++j) {
-    for (Eigen::Index i = 0; i < s.rows(); ++i) {
-      square = (s.row(i) - s.row(j)).array().square();
-      const double r = std::sqrt(square.sum());
-      const double decay = std::exp(-kRoot5 * r);
-      gradient.head(d).array() += weight(i, j) * signal2_ * matern_slope(r, decay) * square;
-      gradient(d) += 2 * weight(i, j) * signal2_ * matern(r, decay);
-    }
-  }
-  const Eigen::MatrixXd weighted = weight * s;
-  for (Eigen::Index c = 0; c < d; ++c) {
-    const double sum = trend2_ * s.col(c).dot(weighted.col(c));
-    gradient(c) -= 2 * sum;
-    gradient(d + 1) += 2 * sum;
-  }
-  const double noise_weight =
-      counts_.size() > 0 ? (weight.diagonal().array() / counts_).sum() : weight.trace();
-  gradient(d + 2) = 2 * noise2_ * noise_weight;
-  return gradient;
-}
-
-namespace {
-
 struct SearchResult {
   Hyperparameters hyper;
   double log_posterior = 0;
@@ -176,13 +40,24 @@ struct LogNormal {
   double log_sd = 1;
 };
 
-/// Logarithms: lengths, signal, trend, noise.
-Hyperparameters from_logs(const double* logs, Eigen::Index dimensions) {
+/// Of shift, drift and noise of coarse values: 95 % within .04 ... 2 and .014 ... .7 of the data's
+/// sd, and .38 ... 2.7 of the full ones' noise.
+constexpr std::array<LogNormal, 3> kCoarsePriors = {
+    {{.log_median = -1.2, .log_sd = 1}, {.log_median = -2.3, .log_sd = 1}, {0, .5}}};
+
+/// Logarithms: lengths, signal, trend, noise, and where values are coarse shift, drift and noise
+/// of these.
+Hyperparameters from_logs(const double* logs, Eigen::Index dimensions, bool has_coarse) {
   Hyperparameters hyper;
   for (Eigen::Index i = 0; i < dimensions; ++i) hyper.length.push_back(std::exp(logs[i]));
   hyper.signal = std::exp(logs[dimensions]);
   hyper.trend = std::exp(logs[dimensions + 1]);
   hyper.noise = std::exp(logs[dimensions + 2]);
+  if (has_coarse) {
+    hyper.coarse = {.shift = std::exp(logs[dimensions + 3]),
+                    .drift = std::exp(logs[dimensions + 4]),
+                    .noise = std::exp(logs[dimensions + 5])};
+  }
   return hyper;
 }
 
@@ -190,6 +65,10 @@ std::vector<double> to_logs(const Hyperparameters& hyper) {
   std::vector<double> logs;
   for (const double length : hyper.length) logs.push_back(std::log(length));
   for (const double other : {hyper.signal, hyper.trend, hyper.noise}) {
+    logs.push_back(std::log(other));
+  }
+  if (!hyper.coarse) return logs;
+  for (const double other : {hyper.coarse->shift, hyper.coarse->drift, hyper.coarse->noise}) {
     logs.push_back(std::log(other));
   }
   return logs;
@@ -203,23 +82,28 @@ Eigen::ArrayXd as_array(const std::vector<double>& values) {
 class MinusLogPosterior : public ceres::FirstOrderFunction {
  public:
   /// @param means  in the unit of `y`
+  /// @param coarse  as of Covariance
   MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool is_stochastic,
-                    const MeansOfRuns& means)
+                    const MeansOfRuns& means, const Eigen::ArrayXd& coarse)
       : x_(x),
         y_(y),
         counts_(as_array(means.counts)),
         own_variances_(as_array(means.own_variances)),
+        coarse_(coarse),
         squares_(means.squares),
         df_(means.df),
-        priors_(static_cast<std::size_t>(x.cols()) + 3) {
-    priors_.back() = is_stochastic ? LogNormal{std::log(.1), 1.5} : LogNormal{std::log(.001), 1};
+        priors_(static_cast<std::size_t>(x.cols()) + 2) {
+    noise_ = priors_.size();
+    priors_.push_back(is_stochastic ? LogNormal{std::log(.1), 1.5} : LogNormal{std::log(.001), 1});
+    if (coarse.size() == 0) return;
+    for (const LogNormal& prior : kCoarsePriors) priors_.push_back(prior);
   }
 
   int NumParameters() const override { return static_cast<int>(priors_.size()); }
 
   bool Evaluate(const double* logs, double* cost, double* gradient) const override {
-    const Hyperparameters hyper = from_logs(logs, x_.cols());
-    const Covariance covariance(hyper, counts_, own_variances_);
+    const Hyperparameters hyper = from_logs(logs, x_.cols(), coarse_.size() > 0);
+    const Covariance covariance(hyper, counts_, own_variances_, coarse_);
     const Eigen::LLT<Eigen::MatrixXd> root(covariance.of_runs(x_));
     if (root.info() != Eigen::Success) return false;
     const Eigen::VectorXd alpha = root.solve(y_);
@@ -235,7 +119,7 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
       // Of the runs about their means: squares ~ noise^2 chi-square(df).
       const double ratio = squares_ / (hyper.noise * hyper.noise);
       *cost += df_ * std::log(hyper.noise) + .5 * ratio;
-      if (gradient != nullptr) gradient[NumParameters() - 1] += df_ - ratio;
+      if (gradient != nullptr) gradient[noise_] += df_ - ratio;
     }
     for (std::size_t i = 0; i < priors_.size(); ++i) {
       const double off = (logs[i] - priors_[i].log_median) / priors_[i].log_sd;
@@ -250,9 +134,11 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
   const Eigen::VectorXd& y_;
   Eigen::ArrayXd counts_;
   Eigen::ArrayXd own_variances_;
+  Eigen::ArrayXd coarse_;
   double squares_;
   double df_;
   std::vector<LogNormal> priors_;
+  std::size_t noise_ = 0;  ///< its place among the logarithms
 };
 
 std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool is_stochastic, int count) {
@@ -269,14 +155,20 @@ std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool is_stochas
 ///
 /// Marginal likelihood (Rasmussen and Williams 2006, eq. 2.30, gradient 5.9) times log-normal
 /// priors, of median 1 and 95 % between .14 and 7 for lengths, signal and trend; the noise has
-/// median .1 (.005 ... 2), without chance .001 (.0001 ... .007). Minimised by L-BFGS from fixed
-/// starts.
+/// median .1 (.005 ... 2), without chance .001 (.0001 ... .007); kCoarsePriors. Minimised by L-BFGS
+/// from fixed starts.
 SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
                                     bool is_stochastic, const std::optional<Hyperparameters>& start,
-                                    int starts, const MeansOfRuns& means) {
+                                    int starts, const MeansOfRuns& means,
+                                    const Eigen::ArrayXd& coarse) {
+  const bool has_coarse = coarse.size() > 0;
   std::vector<Hyperparameters> begins = own_starts(x.cols(), is_stochastic, starts);
   if (start) begins.push_back(*start);
-  ceres::GradientProblem problem(new MinusLogPosterior(x, y, is_stochastic, means));
+  for (Hyperparameters& begin : begins) {
+    if (!has_coarse) begin.coarse.reset();
+    if (has_coarse && !begin.coarse) begin.coarse.emplace();
+  }
+  ceres::GradientProblem problem(new MinusLogPosterior(x, y, is_stochastic, means, coarse));
   ceres::GradientProblemSolver::Options options;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 40;
@@ -295,7 +187,20 @@ SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::Vecto
       best = logs;
     }
   }
-  return {from_logs(best.data(), x.cols()), -least};
+  return {from_logs(best.data(), x.cols(), has_coarse), -least};
+}
+
+}  // namespace
+
+namespace {
+
+/// As Covariance takes it; empty where all are full.
+Eigen::ArrayXd coarse_of(const std::vector<RunKind>& kinds) {
+  if (std::ranges::find(kinds, RunKind::coarse) == kinds.end()) return {};
+  Eigen::ArrayXd coarse(static_cast<Eigen::Index>(kinds.size()));
+  std::ranges::transform(kinds, coarse.begin(),
+                         [](RunKind kind) { return kind == RunKind::coarse ? 1. : 0.; });
+  return coarse;
 }
 
 }  // namespace
@@ -315,7 +220,8 @@ struct GaussianProcess::State {
 
 GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y,
                                  bool is_stochastic, const std::optional<Hyperparameters>& start,
-                                 int starts, const MeansOfRuns& means) {
+                                 int starts, const MeansOfRuns& means,
+                                 const std::vector<RunKind>& kinds) {
   auto state = std::make_shared<State>();
   state->x = as_rows(x);
   Eigen::VectorXd values =
@@ -329,11 +235,12 @@ GaussianProcess::GaussianProcess(const std::vector<Point>& x, const std::vector<
   MeansOfRuns scaled = means;
   scaled.squares /= state->scale * state->scale;
   for (double& variance : scaled.own_variances) variance /= state->scale * state->scale;
+  const Eigen::ArrayXd coarse = coarse_of(kinds);
   const SearchResult found =
-      search_hyperparameters(state->x, values, is_stochastic, start, starts, scaled);
+      search_hyperparameters(state->x, values, is_stochastic, start, starts, scaled, coarse);
   state->hyper = found.hyper;
   state->covariance =
-      Covariance(found.hyper, as_array(scaled.counts), as_array(scaled.own_variances));
+      Covariance(found.hyper, as_array(scaled.counts), as_array(scaled.own_variances), coarse);
   // The density of y, not of the scaled y.
   state->log_posterior =
       found.log_posterior - (static_cast<double>(y.size()) + means.df) * std::log(state->scale);
@@ -368,9 +275,23 @@ Expectation GaussianProcess::at(const Point& x, bool with_gradients) const {
   return expectation;
 }
 
-std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points) const {
+Expectation GaussianProcess::coarse_shift(const Point& x) const {
+  const State& s = *state_;
+  const Eigen::Map<const Eigen::RowVectorXd> here(x.data(), s.x.cols());
+  Eigen::VectorXd k = s.covariance.shifts_with_runs(s.scaled, here);
+  Expectation shift;
+  shift.mean = s.scale * k.dot(s.alpha);
+  s.root.matrixL().solveInPlace(k);
+  shift.variance = s.scale * s.scale * std::max(0., s.covariance.own_shift() - k.squaredNorm());
+  return shift;
+}
+
+std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points,
+                                                const std::vector<RunKind>& kinds) const {
   const State& s = *state_;
   const Covariance& covariance = s.covariance;
+  const Eigen::ArrayXd coarse = coarse_of(kinds);
+  const Covariance of_places = covariance.of_places(coarse);
   const Eigen::MatrixXd places = as_rows(points);
   const Eigen::MatrixXd scaled_places = covariance.scaled(places);
   Eigen::MatrixXd across(s.x.rows(), places.rows());
@@ -378,9 +299,13 @@ std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points
   for (Eigen::Index j = 0; j < places.rows(); ++j) {
     Eigen::VectorXd column(s.x.rows());
     covariance.with_runs(s.scaled, places.row(j), column, nullptr);
-    across.col(j) = column;
     Eigen::VectorXd own(places.rows());
     covariance.with_runs(scaled_places, places.row(j), own, nullptr);
+    if (coarse.size() > 0 && coarse(j) > 0) {
+      column += covariance.shifts_with_runs(s.scaled, places.row(j));
+      own += of_places.shifts_with_runs(scaled_places, places.row(j));
+    }
+    across.col(j) = column;
     between.col(j) = own;
   }
   s.root.matrixL().solveInPlace(across);
@@ -389,7 +314,11 @@ std::vector<double> GaussianProcess::covariance(const std::vector<Point>& points
   return {between.data(), between.data() + between.size()};
 }
 
-double GaussianProcess::noise_sd() const { return state_->scale * state_->hyper.noise; }
+double GaussianProcess::noise_sd(RunKind kind) const {
+  const Hyperparameters& hyper = state_->hyper;
+  const bool is_coarse = kind == RunKind::coarse && hyper.coarse;
+  return state_->scale * hyper.noise * (is_coarse ? hyper.coarse->noise : 1);
+}
 
 double GaussianProcess::log_posterior() const { return state_->log_posterior; }
 

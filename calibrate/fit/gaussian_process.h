@@ -4,17 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "calibrate/fit/hyperparameters.h"
 #include "calibrate/fit/points.h"
 
 namespace repose::calibrate {
-
-/// Of a Gaussian process: smooth part, straight trend and noise, in sd's of the data.
-struct Hyperparameters {
-  std::vector<double> length;  ///< per coordinate of the unit box
-  double signal = 1;
-  double trend = 1;  ///< slope per length scale
-  double noise = .1;
-};
 
 /// What a process expects at a point, without the noise of a single run.
 struct Expectation {
@@ -36,29 +29,33 @@ struct MeansOfRuns {
   std::vector<double> own_variances = {};
 };
 
-/// Error of a run's prediction by all other runs, and the sd that was expected of it.
-struct LeaveOneOut {
-  double error = 0;
-  double sd = 0;
-};
-
 /// A function of several coordinates, learned from noisy values. Immutable, cheap to copy.
 ///
 /// Formulae: THEORY.md, "Surrogate". Rasmussen and Williams (2006), Gaussian Processes for Machine
 /// Learning: prediction eqs. 2.25, 2.26; marginal likelihood 2.30; its gradient 5.9; Matern
 /// covariance 4.17; leave-one-out 5.12. Proved by GaussianProcess.* in tests/calibrate.
+///
+/// Values may be coarse: of the function plus another one, which is a second process, independent
+/// and of the same length scales, and with a noise of their own. Kennedy and O'Hagan (2000),
+/// Biometrika 87, 1, their eq. 1 with rho = 1 and the levels exchanged. What is expected is the
+/// function itself. THEORY.md, "Coarse runs"; proved by CoarseValues.* in tests/calibrate.
 class GaussianProcess {
  public:
   /// Fits the hyperparameters to `y` at `x` (at least two, not all alike). `is_stochastic`: values
   /// at one point differ. `start` is where the search begins besides its own starts.
+  /// `kinds`: of each value; empty: all are full.
   GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y, bool is_stochastic,
                   const std::optional<Hyperparameters>& start, int starts,
-                  const MeansOfRuns& means = {});
+                  const MeansOfRuns& means = {}, const std::vector<RunKind>& kinds = {});
 
   Expectation at(const Point& x, bool with_gradients) const;
-  /// Covariances of what is expected at some points, row by row.
-  std::vector<double> covariance(const std::vector<Point>& points) const;
-  double noise_sd() const;  ///< of single runs
+  /// By how much coarse values are expected to be off at a point, and the variance of that.
+  Expectation coarse_shift(const Point& x) const;
+  /// Covariances of what is expected at some points, row by row; of coarse values where
+  /// `kinds`, one for each, says so.
+  std::vector<double> covariance(const std::vector<Point>& points,
+                                 const std::vector<RunKind>& kinds = {}) const;
+  double noise_sd(RunKind kind = RunKind::full) const;  ///< of single runs
   double log_posterior() const;
   const Hyperparameters& hyperparameters() const;
   std::vector<LeaveOneOut> leave_one_out() const;

@@ -165,6 +165,7 @@ constexpr double kPull = .1;      // per box width: to the middle among equals
 constexpr double kDistrust = .1;  // to where the surrogate is sure, among equals
 constexpr double kFailure = 4;    // a half chance of failure alone is beyond 3.84
 constexpr std::size_t kFewestToLearn = 3;  // readings to learn from
+constexpr std::size_t kFewestFull = 2;     // of them, not coarse: one could be off by chance
 
 /// Cauchy's loss as a residual: its square is c^2 log(1 + z^2 / c^2). Returns its slope, too.
 std::pair<double, double> robust_residual(double z) {
@@ -233,8 +234,9 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     const Observable& observable = problem.observables[i];
     const TrainingSet training_set = training_set_of(
         problem, experiment_named(problem, observable.experiment), observable.reading, runs);
-    if (training_set.readings.size() < kFewestToLearn) {
-      errors.add(too_few(observable, training_set.readings.size(), runs));
+    const std::size_t full = full_readings(training_set);
+    if (training_set.readings.size() < kFewestToLearn || full < kFewestFull) {
+      errors.add(too_few(observable, std::min(full, training_set.readings.size()), runs));
       continue;
     }
     std::optional<Surrogate> start;

@@ -69,7 +69,11 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
 
 double run_s_of(const Experiment& experiment, const AssumedInputs& inputs) {
   return experiment.run_s * inputs.step.work * std::sqrt(inputs.stiffness) *
-         (1 + experiment.spheres_share * (inputs.spheres - 1));
+         (1 + experiment.spheres_share * (inputs.spheres - 1)) / std::pow(inputs.size, 4);
+}
+
+double usual_run_s(const Experiment& experiment) {
+  return run_s_of(experiment, experiment.usual_inputs());
 }
 
 const Experiment& experiment_named(const Problem& problem, const std::string& name) {

@@ -56,9 +56,13 @@ Point seen_by(const Experiment& experiment, const Point& point);
 Job job_at(const Problem& problem, const Experiment& experiment, const Point& point,
            std::uint64_t seed);
 
-/// About how long a run with these inputs takes, s: the stable time step goes with the root of one
-/// over the stiffness, the search for contacts with the number of spheres.
+/// About how long a run with these inputs takes, s: the stable time step goes with the size of the
+/// grains and the root of one over the stiffness, the search for contacts with the number of
+/// spheres, and as many grains fill a vessel as one over the cube of their size.
 double run_s_of(const Experiment& experiment, const AssumedInputs& inputs);
+
+/// Of most of its runs, likewise.
+double usual_run_s(const Experiment& experiment);
 
 /// By name; the problem is sound.
 const Experiment& experiment_named(const Problem& problem, const std::string& name);

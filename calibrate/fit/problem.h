@@ -35,6 +35,26 @@ struct Parameter {
   std::optional<BoundsOrigin> bounds_are = {};  ///< none: not said
 };
 
+/// A number of the study that no fit seeks, changed.
+struct InputStep {
+  std::string input;  ///< its name; empty: none
+  double change = 0;  ///< in its unit
+  double work = 1;    ///< of a run with it, as a multiple
+
+  auto operator<=>(const InputStep&) const = default;
+};
+
+/// What a study assumes beside its coefficients, as multiples of what it says: all 1, and no step,
+/// in full runs.
+struct AssumedInputs {
+  double stiffness = 1;  ///< of grains and walls
+  double spheres = 1;    ///< of the clump that stands for a grain
+  InputStep step = {};
+  double size = 1;  ///< of each grain, in vessels that stay as they are: fewer fill them
+
+  auto operator<=>(const AssumedInputs&) const = default;
+};
+
 /// What can be simulated. One without an observable is never run, but may be advised.
 struct Experiment {
   std::string name;                     ///< "drop", "tilt", "roll", "heap"
@@ -64,6 +84,12 @@ struct Experiment {
   double usual_scatter = .05;
   /// By what fraction of it the model may miss a reading of any bench: Observable::model_sd.
   double model_fraction = 0;
+  /// Of its coarse runs: cheaper ones, off by what full ones beside them tell. None: it has none.
+  std::optional<AssumedInputs> coarse = {};
+
+  bool is_coarse(const AssumedInputs& inputs) const { return coarse && inputs == *coarse; }
+  /// Of most of its runs: coarse ones where it has any.
+  AssumedInputs usual_inputs() const { return coarse.value_or(AssumedInputs{}); }
 };
 
 /// A part of the uncertainty of a measured mean that all its readings have in common.
@@ -122,25 +148,6 @@ struct FitSettings {
   std::uint64_t seed = 1;  ///< of the jobs, which count on from it, and of the fit's own chance
   bool are_runs_given = false;  ///< somebody else makes them: there is no budget to enlarge
   bool robust = false;          ///< Cauchy's loss: an observable that fits nothing else counts less
-};
-
-/// A number of the study that no fit seeks, changed.
-struct InputStep {
-  std::string input;  ///< its name; empty: none
-  double change = 0;  ///< in its unit
-  double work = 1;    ///< of a run with it, as a multiple
-
-  auto operator<=>(const InputStep&) const = default;
-};
-
-/// What a study assumes beside its coefficients, as multiples of what it says: all 1, and no step,
-/// in the runs that a fit is made from.
-struct AssumedInputs {
-  double stiffness = 1;  ///< of grains and walls
-  double spheres = 1;    ///< of the clump that stands for a grain
-  InputStep step = {};
-
-  auto operator<=>(const AssumedInputs&) const = default;
 };
 
 /// One simulation to be run.

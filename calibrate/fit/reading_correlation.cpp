@@ -28,11 +28,11 @@ std::vector<Pairs> repeats_of(const Surrogate& one, const Surrogate& other) {
   for (std::size_t k = 0; k < of_other.runs.size(); ++k) {
     others[of_other.runs[k]] = other.warp().warped(of_other.readings[k]);
   }
-  std::map<Point, Pairs> by_place;
+  std::map<std::pair<Point, RunKind>, Pairs> by_place;
   for (std::size_t k = 0; k < of_one.runs.size(); ++k) {
     const auto found = others.find(of_one.runs[k]);
     if (found == others.end()) continue;
-    Pairs& here = by_place[of_one.places[k]];
+    Pairs& here = by_place[{of_one.places[k], of_one.kind(k)}];
     here.one.push_back(one.warp().warped(of_one.readings[k]));
     here.other.push_back(found->second);
   }

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "calibrate/fit/best_places.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/plausible.h"
@@ -29,8 +30,10 @@ constexpr std::size_t kAnywhereEvery = 8;  // one of so many places is anywhere 
 /// Where a place of the sequence comes to lie.
 using Placing = std::function<Point(std::size_t place, Point point)>;
 
+/// `count` of the usual runs; where these are coarse, full ones at the first places besides.
 void add_jobs(const Problem& problem, const Experiment& experiment, int count,
               const Placing& placing, std::vector<Job>& jobs) {
+  int full = full_runs_of_first_round(experiment);
   std::size_t place = 0;
   for (int k = 0; k < count; ++k) {
     // The job after every fifth place is at that place again.
@@ -39,8 +42,11 @@ void add_jobs(const Problem& problem, const Experiment& experiment, int count,
     const Point own = sequence_point(place, experiment.parameters.size());
     Point point(problem.parameters.size(), .5);
     for (std::size_t c = 0; c < own.size(); ++c) point[experiment.parameters[c]] = own[c];
-    jobs.push_back(job_at(problem, experiment, placing(place, std::move(point)),
-                          problem.settings.seed + static_cast<unsigned>(k)));
+    Job job = job_at(problem, experiment, placing(place, std::move(point)),
+                     problem.settings.seed + static_cast<unsigned>(k));
+    if (!repeat && full-- > 0) jobs.push_back(job);
+    job.inputs = experiment.usual_inputs();
+    jobs.push_back(std::move(job));
   }
 }
 
@@ -138,81 +144,6 @@ std::vector<Job> following_jobs(const Problem& problem, const std::vector<Run>& 
 
 namespace {
 
-/// What is left unknown of one surrogate at the candidates.
-struct Unknown {
-  Eigen::MatrixXd covariance;
-  double noise2 = 0;
-  double weight = 1;
-
-  /// How much variance a run at each candidate would take from all of them together.
-  Eigen::VectorXd gains() const {
-    return weight * covariance.colwise().squaredNorm().transpose().array() /
-           (covariance.diagonal().array() + noise2 + 1e-300);
-  }
-
-  void learn(Eigen::Index place) {
-    const Eigen::VectorXd column = covariance.col(place);
-    covariance -= column * column.transpose() / (column(place) + noise2 + 1e-300);
-  }
-};
-
-}  // namespace
-
-std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
-                                     const std::vector<double>& weights,
-                                     const std::vector<Point>& candidates, std::size_t count,
-                                     double enough,
-                                     const std::function<bool(std::size_t)>& accepts) {
-  const auto size = static_cast<Eigen::Index>(candidates.size());
-  std::vector<Unknown> unknowns;
-  for (std::size_t i = 0; i < surrogates.size(); ++i) {
-    const std::vector<double> flat = surrogates[i].covariance(candidates);
-    const double noise = surrogates[i].run_sd();
-    unknowns.push_back(
-        {Eigen::Map<const Eigen::MatrixXd>(flat.data(), size, size), noise * noise, weights[i]});
-  }
-  std::vector<std::size_t> chosen;
-  Eigen::VectorXd open = Eigen::VectorXd::Ones(size);
-  const auto is_known = [&](const Unknown& unknown) {
-    return unknown.weight * unknown.covariance.diagonal().mean() <= enough;
-  };
-  while (chosen.size() < count) {
-    if (enough > 0 && std::ranges::all_of(unknowns, is_known)) break;
-    Eigen::VectorXd gains = Eigen::VectorXd::Zero(size);
-    for (const Unknown& unknown : unknowns) gains += unknown.gains();
-    Eigen::Index best = 0;
-    if (!(gains.cwiseProduct(open).maxCoeff(&best) > 0)) break;
-    const auto place = static_cast<std::size_t>(best);
-    if (accepts && !accepts(place)) {
-      open(best) = 0;
-      continue;
-    }
-    for (Unknown& unknown : unknowns) unknown.learn(best);
-    chosen.push_back(place);
-  }
-  return chosen;
-}
-
-double unknown_fraction(const Misfit& misfit, const PosteriorSamples& sets,
-                        std::size_t observable) {
-  double sum = 0;
-  for (const Point& point : sets.points) {
-    sum += misfit.surrogate_variance_fraction(observable, point);
-  }
-  return sum / static_cast<double>(sets.points.size());
-}
-
-std::vector<Point> candidate_places(const PosteriorSamples& sets) {
-  constexpr std::size_t kCandidates = 150;
-  std::vector<Point> chosen;
-  for (std::size_t i = 0; i < kCandidates; ++i) {
-    chosen.push_back(sets.wide[i * sets.wide.size() / kCandidates]);
-  }
-  return chosen;
-}
-
-namespace {
-
 constexpr double kSettledMove = .5;     // of the scatter of the plausible sets
 constexpr double kSettledScatter = .2;  // relative change
 
@@ -234,7 +165,7 @@ class Study {
     for (const Run& run : runs) {
       known_.push_back(run);
       spent_.jobs += 1;
-      spent_.seconds += experiment_named(problem_, run.job.experiment).run_s;
+      spent_.seconds += run_s_of(experiment_named(problem_, run.job.experiment), run.job.inputs);
       planned_.insert(run.job);
     }
     known_ = in_order(problem_, known_);
@@ -254,7 +185,9 @@ class Study {
                     problem_.settings.max_jobs - spent_.jobs};
     const std::vector<int> counts = round_jobs(problem_, needs(), left, rounds_left);
     std::vector<Job> jobs;
-    for (std::size_t e = 0; e < experiments_.size(); ++e) add_jobs(e, counts[e], jobs);
+    for (std::size_t e = 0; e < experiments_.size(); ++e) {
+      add_jobs(e, counts[e], left.seconds, jobs);
+    }
     return jobs;
   }
 
@@ -310,31 +243,50 @@ class Study {
     return needs;
   }
 
-  void add_jobs(std::size_t e, int count, std::vector<Job>& jobs) const {
-    if (count < 1) return;
-    const Experiment& experiment = experiments_[e];
-    const auto elsewhere = static_cast<std::size_t>(count / kSpreadEvery);
-    const std::vector<Point> sets = candidate_places(sets_);
+  /// So many of its usual runs, or what is as long and tells more.
+  std::vector<ChosenRun> chosen_runs(const Experiment& experiment, std::size_t count, double left_s,
+                                   const std::vector<Point>& candidates) const {
     std::vector<Surrogate> surrogates;
     std::vector<double> weights;
     for (const std::size_t i : observables_of(experiment)) {
       surrogates.push_back(misfit_->surrogates()[i]);
       weights.push_back(misfit_->weight(i));
     }
-    std::vector<Point> places;
-    for (const std::size_t i :
-         best_places(surrogates, weights, sets, static_cast<std::size_t>(count) - elsewhere)) {
-      places.push_back(sets[i]);
+    if (experiment.coarse) {
+      const RunCosts costs{.full_s = experiment.run_s, .coarse_s = usual_run_s(experiment)};
+      return best_runs(surrogates, weights, candidates, costs,
+                       static_cast<double>(count) * costs.coarse_s, left_s);
     }
+    std::vector<ChosenRun> runs;
+    for (const std::size_t place : best_places(surrogates, weights, candidates, count)) {
+      runs.push_back({place, RunKind::full});
+    }
+    return runs;
+  }
+
+  void add_jobs(std::size_t e, int count, double left_s, std::vector<Job>& jobs) const {
+    if (count < 1) return;
+    const Experiment& experiment = experiments_[e];
+    const auto elsewhere = static_cast<std::size_t>(count / kSpreadEvery);
+    const std::vector<Point> sets = candidate_places(sets_);
     const auto before = static_cast<std::size_t>(
         std::count_if(planned_.begin(), planned_.end(),
                       [&](const Job& job) { return job.experiment == experiment.name; }));
-    for (std::size_t i = 0; i < elsewhere; ++i) {
-      places.push_back(sequence_point(before + i, problem_.parameters.size()));
-    }
+    std::vector<Job> planned;
     std::uint64_t seed = problem_.settings.seed + before;
-    for (const Point& place : places) {
-      const Job job = job_at(problem_, experiment, place, seed++);
+    const auto plan = [&](const Point& place, RunKind kind) {
+      Job& job = planned.emplace_back(job_at(problem_, experiment, place, seed++));
+      if (kind == RunKind::coarse) job.inputs = experiment.usual_inputs();
+    };
+    for (const ChosenRun& run :
+         chosen_runs(experiment, static_cast<std::size_t>(count) - elsewhere, left_s, sets)) {
+      plan(sets[run.place], run.kind);
+    }
+    for (std::size_t i = 0; i < elsewhere; ++i) {
+      plan(sequence_point(before + i, problem_.parameters.size()),
+           experiment.coarse ? RunKind::coarse : RunKind::full);
+    }
+    for (const Job& job : planned) {
       // Without chance the same place again has nothing new.
       if (!planned_.contains(job) && std::find(jobs.begin(), jobs.end(), job) == jobs.end()) {
         jobs.push_back(job);

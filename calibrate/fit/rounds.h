@@ -29,32 +29,6 @@ std::vector<Job> leading_jobs(const Problem& problem);
 /// plausible; one in eight anywhere.
 std::vector<Job> following_jobs(const Problem& problem, const std::vector<Run>& leading);
 
-/// Which of the `candidates` to run next, `count` of them, some perhaps twice.
-///
-/// One by one, each time the place whose run would lower the surrogates' variances over all
-/// candidates most, each surrogate's in units of `weights`: Cohn (1996), Neural Networks 9, 1071;
-/// for Gaussian processes Seo, Wallat, Graepel, Obermayer (2000). A run without chance is never
-/// repeated. Proved by BestPlaces.* in tests/calibrate.
-/// @param enough  fewer are chosen where after these no surrogate's mean variance is above
-/// @param accepts  asked of each before it is chosen; one that is not accepted is passed over from
-///   then on. None: all are
-std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
-                                     const std::vector<double>& weights,
-                                     const std::vector<Point>& candidates, std::size_t count,
-                                     double enough = 0,
-                                     const std::function<bool(std::size_t)>& accepts = {});
-
-/// A surrogate's mean variance at the plausible sets, in that of the measured mean, from which on
-/// runs are worth their while: it adds 3 % to sigma.
-inline constexpr double kKnownWell = .06;
-inline constexpr int kSpreadEvery = 8;  ///< one of so many runs looks elsewhere
-
-/// That mean variance.
-double unknown_fraction(const Misfit& misfit, const PosteriorSamples& sets, std::size_t observable);
-
-/// Places that a next run may be at, where sets of coefficients are plausible.
-std::vector<Point> candidate_places(const PosteriorSamples& sets);
-
 /// The rounds of a study, as far as its runs go.
 struct Rounds {
   std::vector<RoundSummary> complete;

@@ -135,7 +135,7 @@ double sd_within(const Experiment& experiment, const std::string& reading,
   double squares = 0;
   int count = 0;
   for (const Run& run : runs) {
-    if (run.job.experiment != experiment.name) continue;
+    if (run.job.experiment != experiment.name || run.job.inputs != AssumedInputs{}) continue;
     const std::optional<double> sd = reading_of(run, experiment.scatter_within);
     if (!sd) continue;
     squares += *sd * *sd;
@@ -154,7 +154,9 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
                            .sd_within = sd_within(experiment, reading, runs)};
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const Run& run = runs[k];
+    const bool is_coarse = experiment.is_coarse(run.job.inputs);
     if (run.job.experiment != experiment.name) continue;
+    if (!is_coarse && run.job.inputs != AssumedInputs{}) continue;
     const std::optional<double> value = reading_of(run, reading);
     if (!value) continue;
     Point place = seen_by(experiment, to_unit(problem, run.job.values));
@@ -169,6 +171,10 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
         sd == run.repeat_sd.end() ? std::numeric_limits<double>::quiet_NaN() : sd->second);
     const auto own = run.reading_sd.find(reading);
     training_set.own_sds.push_back(own == run.reading_sd.end() ? 0 : own->second);
+    training_set.kinds.push_back(is_coarse ? RunKind::coarse : RunKind::full);
+  }
+  if (std::ranges::count(training_set.kinds, RunKind::coarse) == 0) {
+    training_set.kinds.clear();
   }
   if (std::ranges::all_of(training_set.own_sds, [](double sd) { return sd == 0; })) {
     training_set.own_sds.clear();
@@ -187,6 +193,11 @@ int readings_among(const Experiment& experiment, const std::string& reading,
   }));
 }
 
+std::size_t full_readings(const TrainingSet& training_set) {
+  return training_set.readings.size() -
+         static_cast<std::size_t>(std::ranges::count(training_set.kinds, RunKind::coarse));
+}
+
 int Attempts::failures() const {
   return static_cast<int>(std::count(failed.begin(), failed.end(), true));
 }
@@ -196,6 +207,8 @@ Attempts attempts_of(const Problem& problem, const Experiment& experiment,
   Attempts attempts{experiment.parameters, {}, {}};
   for (const Run& run : runs) {
     if (run.job.experiment != experiment.name) continue;
+    // Larger grains may make no heap where the study's do; the other way round they do not.
+    if (run.job.inputs != AssumedInputs{} && !run.failure.empty()) continue;
     attempts.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
     attempts.failed.push_back(!run.failure.empty());
   }
@@ -268,10 +281,10 @@ double Surrogate::runs_told(std::size_t reading) const {
 double Surrogate::factor_of_few_runs() const {
   if (!training_set_.is_stochastic) return 1;
   constexpr double kFewest = 3;  // fewer would say more about the prior of the noise than of it
-  const double noise = process_->noise_sd();
   double df = 0;
   const std::vector<LeaveOneOut> all = process_->leave_one_out();
   for (std::size_t i = 0; i < all.size(); ++i) {
+    const double noise = run_sd(training_set_.kind(i));
     df += noise * noise / (repeats_of(i) * all[i].sd * all[i].sd) + (runs_told(i) - 1);
   }
   return base::student_t_quantile(.975, std::max(df, kFewest)) / base::kNormal95;
@@ -281,8 +294,10 @@ GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparamet
                                    int starts, std::size_t every) const {
   std::vector<Point> places;
   std::vector<double> values;
+  std::vector<RunKind> kinds;
   MeansOfRuns means;
   for (std::size_t i = 0; i < training_set_.places.size(); i += every) {
+    kinds.push_back(training_set_.kind(i));
     const double reading = training_set_.readings[i];
     places.push_back(training_set_.places[i]);
     values.push_back(AsinhWarp{warp, 0}.warped(reading));
@@ -297,7 +312,7 @@ GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparamet
     means.df += runs_told(i) - 1;
     means.squares += (runs_told(i) - 1) * std::pow(slope * training_set_.repeat_sds[i], 2);
   }
-  return {places, values, training_set_.is_stochastic, start, starts, means};
+  return {places, values, training_set_.is_stochastic, start, starts, means, kinds};
 }
 
 double Surrogate::best_warp(const std::optional<Hyperparameters>& start) const {
@@ -366,13 +381,22 @@ double Surrogate::reading_sd(double w) const {
                     training_set_.sd_within);
 }
 
-std::vector<double> Surrogate::covariance(const std::vector<Point>& points) const {
+std::vector<double> Surrogate::covariance(const std::vector<Point>& points,
+                                          const std::vector<RunKind>& kinds) const {
   if (!process_) return std::vector<double>(points.size() * points.size(), 0);
   std::vector<Point> places;
   for (const Point& point : points) places.push_back(seen(point));
-  std::vector<double> all = process_->covariance(places);
+  std::vector<double> all = process_->covariance(places, kinds);
   for (double& value : all) value *= std::pow(inflation_ * few_runs_factor_, 2);
   return all;
+}
+
+std::optional<CoarseShift> Surrogate::coarse_shift(const Point& point) const {
+  if (!process_ || training_set_.kinds.empty()) return std::nullopt;
+  const Expectation shift = process_->coarse_shift(seen(point));
+  const double slope = warp_.slope(at(point, false).mean);
+  return CoarseShift{slope * shift.mean,
+                     slope * inflation_ * few_runs_factor_ * std::sqrt(shift.variance)};
 }
 
 void Surrogate::inflate_near(const Point& point) {

@@ -45,6 +45,18 @@ struct TrainingSet {
   std::vector<double> repeat_sds = {};
   /// Run::reading_sd of each reading, 0 where it has none; empty: none has.
   std::vector<double> own_sds = {};
+  /// Of each reading's run; empty: all are full.
+  std::vector<RunKind> kinds = {};
+
+  RunKind kind(std::size_t reading) const {
+    return kinds.empty() ? RunKind::full : kinds[reading];
+  }
+};
+
+/// What coarse runs read beside full ones, in the reading's unit.
+struct CoarseShift {
+  double value = 0;
+  double uncertainty = 0;  ///< standard
 };
 
 /// One reading as a function of all parameters, with its uncertainty.
@@ -65,9 +77,15 @@ class Surrogate {
   double reading_sd(double w) const;
   /// By what single runs are off the curve, in w: by chance or, without it, by what the curve does
   /// not follow.
-  double run_sd() const { return process_ ? process_->noise_sd() : 0; }
-  /// Of w between points, inflated, row by row.
-  std::vector<double> covariance(const std::vector<Point>& points) const;
+  double run_sd(RunKind kind = RunKind::full) const {
+    return process_ ? process_->noise_sd(kind) : 0;
+  }
+  /// Of w between points, inflated, row by row; of coarse runs where `kinds` says so.
+  std::vector<double> covariance(const std::vector<Point>& points,
+                                 const std::vector<RunKind>& kinds = {}) const;
+  /// By how much coarse runs read more than full ones at a point, and the standard uncertainty of
+  /// that; none where all are full.
+  std::optional<CoarseShift> coarse_shift(const Point& point) const;
 
   /// Enlarges the uncertainty where leave-one-out errors are larger than they claim to be, over all
   /// runs or the fifth of them nearest to `point`, at least ten.
@@ -124,11 +142,14 @@ double sd_within(const Experiment& experiment, const std::string& reading,
 TrainingSet training_set_of(const Problem& problem, const Experiment& experiment,
                             const std::string& reading, const std::vector<Run>& runs);
 
-/// How many runs of `experiment` have the reading as a number.
+/// How many runs of `experiment` have the reading as a number, coarse ones too.
 int readings_among(const Experiment& experiment, const std::string& reading,
                    const std::vector<Run>& runs);
 
-/// Where an experiment was run, and whether it failed.
+/// How many of the training set's runs are full.
+std::size_t full_readings(const TrainingSet& training_set);
+
+/// Where an experiment was run, and whether it failed; coarse runs only where they did not.
 struct Attempts {
   std::vector<std::size_t> parameters;
   std::vector<Point> places;

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "calibrate/fit/best_places.h"
 #include "calibrate/fit/misfit.h"
 #include "calibrate/fit/points.h"
-#include "calibrate/fit/rounds.h"
 #include "calibrate/fit/solution.h"
 #include "calibrate/fit/surrogate.h"
 #include "calibrate/runs/table_fit.h"

@@ -22,7 +22,8 @@ PlainJson json_of(const Job& job) {
           {"seed", job.seed},
           {"stiffness", job.inputs.stiffness},
           {"spheres", job.inputs.spheres},
-          {"step", {job.inputs.step.input, job.inputs.step.change, job.inputs.step.work}}};
+          {"step", {job.inputs.step.input, job.inputs.step.change, job.inputs.step.work}},
+          {"size", job.inputs.size}};
 }
 
 Job job_in(const PlainJson& json) {
@@ -33,7 +34,8 @@ Job job_in(const PlainJson& json) {
                      .spheres = json.at("spheres"),
                      .step = {.input = json.at("step").at(0),
                               .change = json.at("step").at(1),
-                              .work = json.at("step").at(2)}}};
+                              .work = json.at("step").at(2)},
+                     .size = json.at("size")}};
 }
 
 }  // namespace

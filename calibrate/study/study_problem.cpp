@@ -208,6 +208,7 @@ class StudyProblemBuilder {
 
   StudyProblem make(const Budget& budget) {
     made_.problem.settings = budget.settings;
+    is_coarse_allowed_ = !budget.is_full;
     made_.problem.settings.seed = study_.seed;
     made_.problem.parameters = open_parameters(study_);
     made_.problem.spheres = spheres_of(study_.grain, grain_.shape);
@@ -273,7 +274,8 @@ class StudyProblemBuilder {
          .systematic_fraction = systematic.sd,
          .systematic_sd = stated_sd(measured.systematic),
          .usual_scatter = entry.usual_scatter,
-         .model_fraction = described->second.model_error.value_or(entry.usual_model_error)});
+         .model_fraction = described->second.model_error.value_or(entry.usual_model_error),
+         .coarse = coarse_inputs(entry, described->second.protocol)});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured)
       add(with(systematic, observable_of(measured, entry.usual_scatter)), entry, "value");
@@ -325,6 +327,16 @@ class StudyProblemBuilder {
         entry.name, base::kUsualDefinition.name, base::kUsualDefinition.description));
   }
 
+  /// Of coarse runs, where the budget wants them and they are worth it.
+  std::optional<AssumedInputs> coarse_inputs(const dem::ExperimentEntry& entry,
+                                             const dem::Protocol& protocol) const {
+    constexpr double kDecimals = 100;  // to be told in full
+    if (!is_coarse_allowed_ || entry.coarse_size == nullptr) return std::nullopt;
+    const std::optional<double> size = entry.coarse_size(grain_.shape, protocol);
+    if (!size) return std::nullopt;
+    return AssumedInputs{.size = std::round(kDecimals * *size) / kDecimals};
+  }
+
   int readings_per_run(const dem::ExperimentEntry& entry) const {
     if (entry.readings_per_run == nullptr) return 1;
     return entry.readings_per_run(study_.experiments.at(&entry).protocol);
@@ -373,6 +385,7 @@ class StudyProblemBuilder {
 
   const dem::Study& study_;
   const dem::ClumpFile& grain_;
+  bool is_coarse_allowed_ = false;
   StudyProblem made_;
   std::vector<Observable>* into_ = &made_.problem.observables;  ///< those fitted, or held out
 };

@@ -19,6 +19,7 @@ struct Budget {
   int round_repeats = 2;         ///< fresh seeds at the best fit while checks still move it
   int verification_repeats = 3;  ///< in the last check, which the verdicts are made of
   int family_sets = 2;           ///< sets of the equivalence family that are checked
+  bool is_full = false;          ///< every run is of the study's own grains, and none is coarse
 };
 
 /// "quick", "standard" or "paper". Throws base::InputError for another name.

@@ -98,6 +98,7 @@ struct StudySimulator::FinerGrains {
 
   std::mutex making;
   std::map<std::pair<int, InputStep>, Grain> made;
+  std::map<double, Grain> larger;
 
   const Grain& of(dem::GrainSource source, int spheres, const InputStep& step) {
     const std::scoped_lock lock(making);
@@ -108,12 +109,22 @@ struct StudySimulator::FinerGrains {
     source.fill.volume_error.reset();
     return made.try_emplace(key, dem::build_grain(source)).first->second;
   }
+
+  /// The same clump, larger.
+  const Grain& scaled(dem::ClumpFile clump, double size) {
+    const std::scoped_lock lock(making);
+    const auto found = larger.find(size);
+    if (found != larger.end()) return found->second;
+    dem::scale(clump, size);
+    return larger.try_emplace(size, clump).first->second;
+  }
 };
 
 StudySimulator::StudySimulator(dem::Study study, dem::ClumpFile grain,
                                const std::vector<Parameter>& sought, int heap_views)
     : study_(std::move(study)),
-      grain_(std::move(grain)),
+      study_grain_(std::move(grain)),
+      grain_(study_grain_),
       finer_(std::make_shared<FinerGrains>()),
       heap_views_(heap_views) {
   for (const Parameter& parameter : sought) names_.push_back(parameter.name);
@@ -132,6 +143,7 @@ const NamedGrain& StudySimulator::grain(const dem::GrainSource& source,
                                         const AssumedInputs& inputs) const {
   const bool is_other = source.size_factor != study_.grain.size_factor ||
                         (source.sizes && *source.sizes != *study_.grain.sizes);
+  if (inputs.size != 1) return finer_->scaled(study_grain_, inputs.size).named;
   if (inputs.spheres == 1 && !is_other) return grain_;
   return finer_->of(source, spheres(inputs.spheres), is_other ? inputs.step : InputStep{}).named;
 }
@@ -143,6 +155,7 @@ RunSpec StudySimulator::spec(const Job& job) const {
   if (!step.input.empty()) dem::change_input(changed.emplace(study_), step.input, step.change);
   const dem::Study& study = changed ? *changed : study_;
   RunSpec spec = spec_of(study, experiment, grain(study.grain, job.inputs), heap_views_);
+  if (job.inputs.size != 1) experiment->coarsen(spec.protocol, job.inputs.size);
   spec.simulator = simulator_;
   spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.inputs.stiffness);
   for (std::size_t k = 0; k < names_.size(); ++k) {

@@ -68,6 +68,7 @@ class StudySimulator {
   const NamedGrain& grain(const dem::GrainSource& source, const AssumedInputs& inputs) const;
 
   dem::Study study_;
+  dem::ClumpFile study_grain_;
   NamedGrain grain_;
   std::shared_ptr<FinerGrains> finer_;
   std::vector<std::string> names_;

@@ -178,6 +178,11 @@ struct ExperimentEntry {
   /// About how long a run takes on a core of 2020 or so, s: from the model (all coefficients with a
   /// value) and the protocol alone, the same on every machine. Only ratios matter much.
   double (*cost_s)(const Model& model, const Protocol& protocol) = nullptr;
+  /// By what factor grains may be larger, fewer of them in its vessels, so that a run costs much
+  /// less and still says what depends on what; none: by none. Null: nor ever.
+  std::optional<double> (*coarse_size)(const ClumpShape& grain, const Protocol& protocol) = nullptr;
+  /// Makes the protocol one of grains that much larger. Null where coarse_size is.
+  void (*coarsen)(Protocol& protocol, double size) = nullptr;
 };
 
 /// All of them, in the order in which they are listed.

@@ -41,7 +41,8 @@ ClumpFile unscaled_grain(const GrainSource& source) {
   return clump;
 }
 
-/// All lengths multiplied; errors that are fractions stay.
+}  // namespace
+
 void scale(ClumpFile& clump, double factor) {
   clump.shape = scaled(clump.shape, factor);
   for (double* length_m : {&clump.errors.surface_error_mean_m, &clump.errors.surface_error_p95_m,
@@ -49,8 +50,6 @@ void scale(ClumpFile& clump, double factor) {
     *length_m *= factor;
   }
 }
-
-}  // namespace
 
 ClumpFile build_grain(const GrainSource& source) {
   ClumpFile clump = unscaled_grain(source);

@@ -25,4 +25,7 @@ struct GrainSource {
 /// @throws base::InputError  all that is wrong with the file or the surface.
 ClumpFile build_grain(const GrainSource& source);
 
+/// Multiplies all its lengths; errors that are fractions stay.
+void scale(ClumpFile& clump, double factor);
+
 }  // namespace repose::dem

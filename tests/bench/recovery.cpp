@@ -45,6 +45,7 @@ void recover(const SimulatedRecovery& plan) {
     const std::vector<double> truth = made_up_material(fake::parameters(), random);
     calibrate::Problem problem = fake::problem(truth, plan.seed + static_cast<unsigned>(m));
     problem.settings.budget_s = plan.budget_s;
+    if (plan.coarse_size) fake::coarsen(problem, *plan.coarse_size);
     tally.add(fit_jointly(problem, fake::study(problem)), truth, plan.verbose);
   }
   tally.print();
@@ -209,6 +210,9 @@ void add_recovery(CLI::App& bench) {
   app.add_option("--materials", plan->materials, "how many")->check(CLI::PositiveNumber);
   app.add_option("--budget-s", plan->budget_s, "seconds of simulation for each");
   app.add_option("--seed", plan->seed);
+  app.add_option("--coarse", plan->coarse_size,
+                 "made-up simulations: heaps of grains so many times their size besides")
+      ->check(CLI::Range(1.1, 8.));
   app.add_option("--simulated", plan->study,
                  "a study file: measure and calibrate with real simulations of it");
   app.add_option("--experiments", plan->experiments, "with --simulated: make only these")

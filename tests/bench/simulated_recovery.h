@@ -20,6 +20,7 @@ struct SimulatedRecovery {
   int materials = 20;
   double budget_s = 150;  ///< of one core, for each material
   std::uint64_t seed = 1;
+  std::optional<double> coarse_size = {};  ///< of grains in cheaper heaps; none: all are full
   bool verbose = false;
 };
 

@@ -40,6 +40,14 @@ double scattered(const std::string& experiment, const std::string& reading, doub
   return mean + (reading == "value" ? .7 : 1.5) * random.normal();
 }
 
+/// Of larger grains, with what they scatter more.
+double size_effect(const Job& job, Random& random) {
+  const double size = job.inputs.size;
+  if (size == 1) return 0;
+  const double middle = .425;
+  return kSizeShift * std::log2(size) * job.values[4] / middle + .7 * (size - 1) * random.normal();
+}
+
 double heap(const std::string& reading, const std::vector<double>& v) {
   const double sliding = 1 - std::exp(-v[4] / .25);
   const double rolling = 1 - std::exp(-v[5] / .06);
@@ -89,6 +97,7 @@ Run run(const Job& job, bool jams) {
       double mean = expected(job.experiment, reading, job.values);
       if (experiment.name == "heap" && reading == "value") {
         mean -= kSofteningShift * std::log10(job.inputs.stiffness);
+        mean += size_effect(job, random);
       }
       if (experiment.name == "drop") {
         mean *= std::pow(kFinerRebound, std::log(job.inputs.spheres) / std::log(4));
@@ -137,6 +146,12 @@ Problem problem(const std::vector<double>& truth, std::uint64_t seed) {
   problem.settings.budget_s = 1200;
   problem.settings.seed = seed;
   return problem;
+}
+
+void coarsen(Problem& problem, double size) {
+  for (Experiment& experiment : problem.experiments) {
+    if (experiment.name == "heap") experiment.coarse = AssumedInputs{.size = size};
+  }
 }
 
 Runs first_runs(const Problem& problem, bool jams) {

@@ -29,12 +29,16 @@ using Runs = std::vector<Run>;
 /// What a tenth of the stiffness adds to the angle of a heap, degrees.
 inline constexpr double kSofteningShift = 2.5;
 
+/// What grains of twice the size add to the angle of a heap of the middle sliding friction,
+/// degrees; it goes with that friction.
+inline constexpr double kSizeShift = 1.5;
+
 /// What four times the spheres leave of a rebound.
 inline constexpr double kFinerRebound = .5;
 
 /// One run with its scatter, softer ones with what that adds, those of more spheres with what that
-/// takes. Heaps of much friction stay in the
-/// tube when `jams`.
+/// takes, those of larger grains with their shift, scattering more. Heaps of much friction stay in
+/// the tube when `jams`.
 Run run(const Job& job, bool jams = false);
 
 Runs run_all(const std::vector<Job>& jobs, bool jams = false);
@@ -44,6 +48,9 @@ std::vector<Observable> measured(const std::vector<double>& truth, std::uint64_t
 
 /// All of the above in one problem.
 Problem problem(const std::vector<double>& truth = kTruth, std::uint64_t seed = 1);
+
+/// Gives the heap of a problem coarse runs, of grains so many times their size.
+void coarsen(Problem& problem, double size);
 
 /// The runs of the first round, both parts of it.
 Runs first_runs(const Problem& problem, bool jams = false);

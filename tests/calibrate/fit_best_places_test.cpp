@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/fit/best_places.h"
 #include "calibrate/fit/points.h"
-#include "calibrate/fit/rounds.h"
 
 namespace repose::calibrate {
 namespace {
