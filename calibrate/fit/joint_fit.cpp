@@ -208,7 +208,8 @@ PredictedSet predicted(const Problem& problem, const Solution& solution,
 }
 
 SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs,
-                            const Surrogate& surrogate, const Observable& observable) {
+                            const Surrogate& surrogate, const Observable& observable,
+                            const Point& best) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
   SurrogateQuality quality;
   quality.observable = observable.name;
@@ -219,6 +220,16 @@ SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs
   quality.leave_one_out_sigma = surrogate.leave_one_out_sigma();
   quality.leave_one_out_error = surrogate.leave_one_out_error();
   quality.inflation = surrogate.inflation();
+  if (const auto shift = surrogate.coarse_shift(best)) {
+    const TrainingSet& training_set = surrogate.training_set();
+    const std::size_t coarse = training_set.readings.size() - full_readings(training_set);
+    quality.coarse = CoarseQuality{
+        .size = experiment.usual_inputs().size,
+        .runs = static_cast<int>(coarse),
+        .shift = shift->value,
+        .uncertainty = shift->uncertainty,
+        .scatter = surrogate.run_sd(RunKind::coarse) / surrogate.run_sd(RunKind::full)};
+  }
   return quality;
 }
 
@@ -277,8 +288,8 @@ JointFit fit_of(const Problem& problem, const std::vector<Run>& runs, const Solu
   advise(problem, Advisor(problem, runs, solution, std::move(exact)), fit);
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     fit.observables.push_back(observable_of(problem, solution, i));
-    fit.surrogates.push_back(
-        quality_of(problem, runs, solution.misfit.surrogates()[i], problem.observables[i]));
+    fit.surrogates.push_back(quality_of(problem, runs, solution.misfit.surrogates()[i],
+                                        problem.observables[i], solution.best.point));
   }
   fit.correlation = correlation_of(solution.sets.points);
   fit.reading_correlation = solution.misfit.reading_correlation();

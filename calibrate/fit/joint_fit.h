@@ -96,6 +96,15 @@ struct ResponseSurface {
   std::vector<std::vector<double>> simulated;  ///< a row for each y
 };
 
+/// What coarse runs taught a surrogate.
+struct CoarseQuality {
+  double size = 1;         ///< of their grains, as a multiple of the study's
+  int runs = 0;            ///< with a reading
+  double shift = 0;        ///< of their reading from that of full ones, at the best set, unit
+  double uncertainty = 0;  ///< standard, of that
+  double scatter = 1;      ///< of single ones, as a multiple of that of full ones
+};
+
 /// How well a surrogate knows its experiment.
 struct SurrogateQuality {
   std::string observable;
@@ -106,6 +115,7 @@ struct SurrogateQuality {
   double leave_one_out_sigma = 0;     ///< rms of standardised leave-one-out errors; 1 is right
   double leave_one_out_error = 0;     ///< rms of leave-one-out errors, seed noise included, unit
   double inflation = 1;               ///< by which its uncertainty was enlarged
+  std::optional<CoarseQuality> coarse = {};  ///< none: all runs are full
 };
 
 /// What was known after a round.

@@ -448,6 +448,9 @@ Chapter agreement_chapter(const JointResult& joint) {
   if (const std::string model = model_error_text(joint); !model.empty()) {
     chapter.blocks.push_back(Paragraph{titled(model) + '.'});
   }
+  if (const std::string coarse = coarse_text(joint); !coarse.empty()) {
+    chapter.blocks.push_back(Paragraph{titled(coarse) + '.'});
+  }
   if (!joint.verdict) return chapter;
   chapter.blocks.push_back(Paragraph{
       "Agrees: the difference is shown to be within the margin. Disagrees: it is more than "

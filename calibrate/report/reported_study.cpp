@@ -29,6 +29,7 @@ std::vector<SavedRun> runs_of(const JointResult& joint) {
     saved.experiment = run.job.experiment;
     saved.readings = run.readings;
     saved.failure = run.failure;
+    saved.is_coarse = run.job.inputs.size != 1;
     for (std::size_t k = 0; k < run.job.values.size(); ++k) {
       saved.values[joint.parameters[k].name] = run.job.values[k];
     }

@@ -16,7 +16,8 @@ struct SavedRun {
   std::string experiment;
   std::map<std::string, double> values;  ///< of the coefficients, by full name
   std::map<std::string, double> readings;
-  std::string failure;  ///< empty: there are readings
+  std::string failure;     ///< empty: there are readings
+  bool is_coarse = false;  ///< of larger grains than the study's
 };
 
 /// A number that the bench measured.

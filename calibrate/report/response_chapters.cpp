@@ -12,6 +12,7 @@ namespace repose::calibrate::report {
 namespace {
 
 constexpr const char* kRuns = "simulated runs";
+constexpr const char* kCoarseRuns = "runs of larger grains";
 constexpr const char* kMeasured = "measured, 95 %";
 constexpr const char* kBest = "best fit";
 
@@ -33,7 +34,8 @@ std::array<double, 2> add_runs(Chart& chart, const ReportedStudy& study,
     const auto x = run.values.find(parameter);
     const auto y = run.readings.find(measured.reading);
     if (x == run.values.end() || y == run.readings.end()) continue;
-    add_point(chart, kRuns, Look::runs, x->second, readable(y->second, measured.unit));
+    add_point(chart, run.is_coarse ? kCoarseRuns : kRuns, run.is_coarse ? Look::dots : Look::runs,
+              x->second, readable(y->second, measured.unit));
     span = {std::min(span[0], x->second), std::max(span[1], x->second)};
   }
   return span;

@@ -359,6 +359,15 @@ void fields(Io& io, Held<Io, Candidate>& candidate) {
 }
 
 template <typename Io>
+void fields(Io& io, Held<Io, CoarseQuality>& coarse) {
+  io("size", coarse.size);
+  io("runs", coarse.runs);
+  io("shift", coarse.shift);
+  io("shift_uncertainty", coarse.uncertainty);
+  io("scatter", coarse.scatter);
+}
+
+template <typename Io>
 void fields(Io& io, Held<Io, SurrogateQuality>& surrogate) {
   io("observable", surrogate.observable);
   io("runs", surrogate.runs);
@@ -366,6 +375,7 @@ void fields(Io& io, Held<Io, SurrogateQuality>& surrogate) {
   io("leave_one_out_error", surrogate.leave_one_out_error);
   io("leave_one_out_sigma", surrogate.leave_one_out_sigma);
   io("inflation", surrogate.inflation);
+  if (io.has("coarse", surrogate.coarse.has_value())) io("coarse", surrogate.coarse);
 }
 
 template <typename Io>
@@ -415,6 +425,7 @@ void fields(Io& io, Held<Io, Run>& run) {
     io("repeat_sd", run.repeat_sd);
   }
   if (io.has("reading_sd", !run.reading_sd.empty())) io("reading_sd", run.reading_sd);
+  if (io.has("size", run.job.inputs.size != 1)) io("size", run.job.inputs.size);
 }
 
 template <typename Items>

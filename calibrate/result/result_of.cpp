@@ -155,10 +155,12 @@ std::vector<EquivalentSet> family_of(const Problem& problem, const StudyOutcome&
 std::vector<ObservableSurface> regressions_of(const Problem& problem,
                                               const std::vector<Run>& runs) {
   std::vector<ObservableSurface> regressions;
+  std::vector<Run> full_runs = runs;  // a polynomial knows no shift of the others
+  std::erase_if(full_runs, [](const Run& run) { return run.job.inputs != AssumedInputs{}; });
   for (const Observable& observable : problem.observables) {
     ObservableSurface& surface = regressions.emplace_back();
     surface.observable = observable.name;
-    const auto report = surface_of_runs(problem, observable, runs);
+    const auto report = surface_of_runs(problem, observable, full_runs);
     if (!report) continue;
     surface.regression = summary_of(*report);
     surface.regression->runs.clear();

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/distributions.h"
+
 namespace repose::calibrate {
 
 namespace {
@@ -308,6 +310,24 @@ std::string model_error_text(const JointResult& joint) {
                               "chance and that",
                               scale)
                 : "");
+}
+
+std::string coarse_text(const JointResult& joint) {
+  std::string text;
+  for (std::size_t k = 0; k < joint.surrogates.size(); ++k) {
+    const SurrogateQuality& surrogate = joint.surrogates[k];
+    if (!surrogate.coarse) continue;
+    const std::string& unit = joint.observables[k].unit;
+    text += fmt::format(
+        "{}{} of {} runs of {} were of grains {:.3g} times as large, which are taken to read "
+        "{:+.2g} "
+        "± {:.2g}{}{} beside the study's (95 %) and scatter {:.2g} times as much",
+        text.empty() ? "" : "; ", surrogate.coarse->runs, surrogate.runs, surrogate.observable,
+        surrogate.coarse->size, surrogate.coarse->shift,
+        base::kNormal95 * surrogate.coarse->uncertainty, unit.empty() ? "" : " ", unit,
+        surrogate.coarse->scatter);
+  }
+  return text;
 }
 
 std::string condition_text(const JointResult& joint, const ResultParameter& parameter) {

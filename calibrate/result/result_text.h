@@ -43,6 +43,9 @@ std::string systematic_text(const ResultObservable& observable);
 /// how wrong it is in the fit, and why it is that. Empty: it is taken to have no error.
 std::string model_error_text(const JointResult& joint);
 
+/// What runs of larger grains are taken to read more than the study's; empty where there are none.
+std::string coarse_text(const JointResult& joint);
+
 /// "if single readings of roll scatter by 35 %": what a coefficient's verdict takes for granted.
 /// Empty: nothing, or nothing is determined.
 std::string condition_text(const JointResult& joint, const ResultParameter& parameter);

@@ -528,6 +528,23 @@ Budget budget_named(const std::string& name) {
                           .fix = "choose quick."});
 }
 
+Budget with_affordable_checks(Budget budget, const Problem& problem) {
+  constexpr double kChecks = .5;  // of the seconds of the fit
+  constexpr int kFewest = 4, kFewestOfRound = 2;
+  double dearest_s = 0;
+  for (const Experiment& experiment : measured_experiments(problem)) {
+    if (experiment.coarse) dearest_s = std::max(dearest_s, experiment.run_s);
+  }
+  if (dearest_s == 0) return budget;
+  const double affordable = kChecks * problem.settings.budget_s / dearest_s;
+  if (affordable >= budget.verification_repeats) return budget;
+  budget.verification_repeats = std::max(kFewest, static_cast<int>(affordable));
+  budget.round_repeats = std::clamp(budget.verification_repeats / 2, kFewestOfRound,
+                                    std::max(budget.round_repeats, kFewestOfRound));
+  budget.family_sets = 0;
+  return budget;
+}
+
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,
                         const Budget& budget) {
   return StudyProblemBuilder(study, grain).make(budget);

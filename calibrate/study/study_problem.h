@@ -25,6 +25,11 @@ struct Budget {
 /// "quick", "standard" or "paper". Throws base::InputError for another name.
 Budget budget_named(const std::string& name);
 
+/// The same with no more checks than the budget has time for, where full runs of an experiment cost
+/// so much that it has coarse ones: the last check is of four repeats at least, those before it of
+/// two, and of equally good sets none. Others as they are.
+Budget with_affordable_checks(Budget budget, const Problem& problem);
+
 /// A coefficient with bounds, as the fit seeks it.
 Parameter sought_parameter(const std::string& name, const dem::Coefficient& coefficient);
 

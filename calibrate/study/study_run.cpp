@@ -36,7 +36,7 @@ void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>
   for (const Run& run : runs) {
     const auto grains = run.readings.find("grains");
     const bool may_be_fewer = dem::experiment_named(run.job.experiment).grains_asked != nullptr;
-    if (!may_be_fewer || grains == run.readings.end()) continue;
+    if (!may_be_fewer || grains == run.readings.end() || run.job.inputs.size != 1) continue;
     most = std::max(most, grains->second);
     least = std::min(least, grains->second);
   }
@@ -400,8 +400,9 @@ void note_checks(StudyOutcome& outcome) {
 
 }  // namespace
 
-std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
+std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& asked,
                                       const StudyContext& context) {
+  const Budget budget = with_affordable_checks(asked, problem);
   JobRunner runner(problem, context);
   StudyOutcome outcome;
   std::vector<std::vector<double>> tried;

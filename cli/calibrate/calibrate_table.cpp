@@ -82,6 +82,9 @@ void add_systematic(const calibrate::JointResult& joint, Page& page) {
   if (const std::string model = model_error_text(joint); !model.empty()) {
     page.add(fmt::format("({})", model));
   }
+  if (const std::string coarse = coarse_text(joint); !coarse.empty()) {
+    page.add(fmt::format("({})", coarse));
+  }
 }
 
 /// What the coefficients would be if readings scattered otherwise than was assumed.
