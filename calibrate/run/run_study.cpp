@@ -17,6 +17,7 @@
 #include "calibrate/published/published_method.h"
 #include "calibrate/run/check_heaps.h"
 #include "calibrate/simulators/simulators.h"
+#include "calibrate/study/study_estimate.h"
 #include "calibrate/study/study_run.h"
 
 namespace repose::calibrate {
@@ -89,6 +90,7 @@ std::optional<StudyResult> fit_jointly(const PreparedStudy& study, const StudyCo
   if (study.record.study.engine.is_own()) {
     problem.offers = offers_in(context.folder, study.record.study, study.record.grain);
   }
+  note_all(note, {foreseen(estimate_of(problem, study.record.budget))});
   const auto outcome =
       with_remarks(context, note, [&] { return run_study(problem, study.record.budget, context); });
   if (!outcome) return std::nullopt;

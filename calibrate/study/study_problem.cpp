@@ -332,16 +332,18 @@ class StudyProblemBuilder {
 
   /// A study of many grains costs more than a budget is made for.
   void allow_a_fit() {
-    constexpr double kMinute_s = 60;
     constexpr double kMinFit = 1.6;  // first rounds: one, and for the later ones over half of it
     const Cost least = minimum_cost(made_.problem);
     FitSettings& settings = made_.problem.settings;
     const double enough_s = kMinFit * least.seconds;
     if (settings.budget_s >= enough_s) return;
+    // Minutes would be those of the core that cost_s is of, not of this machine.
     made_.notes.push_back(fmt::format(
-        "runs of this study take long: the budget is raised from {:.0f} to {:.0f} minutes of one "
-        "core, the least that a fit takes. Fix, to be faster: fewer grains or softer ones.",
-        settings.budget_s / kMinute_s, std::ceil(enough_s / kMinute_s)));
+        "runs of this study take long: the budget is raised to {:.1f} times as much, the least "
+        "that a fit takes: {} simulations in its first round, and over half of their work in later "
+        "ones. repose calibrate --dry-run says how long all of it takes here. Fix, to be faster: "
+        "fewer grains or softer ones.",
+        enough_s / settings.budget_s, least.jobs));
     settings.budget_s = enough_s;
   }
 

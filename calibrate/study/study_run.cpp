@@ -54,9 +54,10 @@ bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
   const int most = problem.settings.max_rounds + (has_followers(problem) ? 1 : 0);
   double left_s = 0, checks_s = 0;
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
-    left_s += estimate.fit_runs * estimate.run_s;
-    checks_s += estimate.check_runs * estimate.run_s;
-    checks_s += estimate.varied_s;
+    const double fit_s =
+        estimate.of(Phase::first_round).seconds + estimate.of(Phase::later_rounds).seconds;
+    left_s += fit_s;
+    checks_s += estimate.all().seconds - fit_s;
   }
   for (int round = 1;; ++round) {
     const auto [complete, jobs] = reconstruct_rounds(problem, runs);

@@ -150,11 +150,11 @@ Methods:
 Budgets:
   quick     14 minutes on one core for the fit
   standard  125 minutes on one core for the fit
-  paper     at most 62 simulations, the number of a published calibration
-The minutes are estimates for heaps of a few hundred grains; verification is
-extra. --dry-run times one run of each experiment, for at most 20 seconds each,
-and reports what each budget would simulate and how long it takes. It needs the
-bench readings, and saves nothing.
+  paper     at most 62 simulations for the fit, as a published calibration
+The minutes are estimates for heaps of a few hundred grains; checks are extra.
+--dry-run times one run of each experiment, for at most 20 seconds each, and
+reports how many simulations each budget takes for what, and how long that is.
+It needs the bench readings, and saves nothing.
 
 --rolling-models constant_torque,elastic_plastic calibrates the study with each
 of them, in folders of their own, and says which one explains the bench readings
