@@ -13,9 +13,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kHour_s = 3600;
-
-/// By the name of the experiment: seconds here for a second of the program's own measure.
-using Pace = std::map<std::string, double>;
+constexpr double kLongest_s = 20;  // of a run that is timed
 
 struct BudgetPlan {
   Budget budget;
@@ -28,28 +26,6 @@ BudgetPlan plan_of(const PreparedStudy& study, Budget budget) {
   made.problem = problem_of(study.record.study, study.record.grain, made.budget).problem;
   made.estimates = estimate_of(made.problem, made.budget);
   return made;
-}
-
-Pace timed_pace(const PreparedStudy& study, const std::vector<ExperimentEstimate>& runs,
-                const std::atomic<bool>& is_interrupted,
-                const std::function<void(std::size_t, std::size_t)>& timed) {
-  constexpr double kLongest_s = 20;
-  const Problem& problem = study.problem.problem;
-  const StudySimulator simulator(study.record.study, study.record.grain, problem.parameters);
-  Job job{.experiment = {}, .values = {}, .seed = problem.settings.seed};
-  for (const Parameter& parameter : problem.parameters) {
-    job.values.push_back((parameter.min + parameter.max) / 2);
-  }
-  Pace pace;
-  if (timed) timed(0, runs.size());
-  for (const ExperimentEstimate& run : runs) {
-    job.experiment = run.experiment;
-    const double run_s =
-        timed_run_s(simulator.spec(job), job.seed, run.run_s, kLongest_s, is_interrupted);
-    pace[run.experiment] = run_s / run.run_s;
-    if (timed) timed(pace.size(), runs.size());
-  }
-  return pace;
 }
 
 BudgetTime time_of(BudgetPlan plan, const Pace& pace, int cores) {
@@ -80,11 +56,33 @@ std::vector<int> hour_runs(const BudgetPlan& plan, const Pace& pace, int cores) 
 
 }  // namespace
 
+Pace timed_pace(const PreparedStudy& study, double longest_s,
+                const std::atomic<bool>& is_interrupted,
+                const std::function<void(std::size_t, std::size_t)>& timed) {
+  const Problem& problem = study.problem.problem;
+  const std::vector<ExperimentEstimate> runs = estimate_of(problem, study.record.budget);
+  const StudySimulator simulator(study.record.study, study.record.grain, problem.parameters);
+  Job job{.experiment = {}, .values = {}, .seed = problem.settings.seed};
+  for (const Parameter& parameter : problem.parameters) {
+    job.values.push_back((parameter.min + parameter.max) / 2);
+  }
+  Pace pace;
+  if (timed) timed(0, runs.size());
+  for (const ExperimentEstimate& run : runs) {
+    job.experiment = run.experiment;
+    const double run_s =
+        timed_run_s(simulator.spec(job), job.seed, run.run_s, longest_s, is_interrupted);
+    pace[run.experiment] = run_s / run.run_s;
+    if (timed) timed(pace.size(), runs.size());
+  }
+  return pace;
+}
+
 BudgetTimes budget_times(const PreparedStudy& study, const std::atomic<bool>& is_interrupted,
                          const std::function<void(std::size_t, std::size_t)>& timed) {
   const std::vector<ExperimentEstimate> own =
       estimate_of(study.problem.problem, study.record.budget);
-  const Pace pace = timed_pace(study, own, is_interrupted, timed);
+  const Pace pace = timed_pace(study, kLongest_s, is_interrupted, timed);
   BudgetTimes times{.cores = study.threads, .budgets = {}, .run_s = {}, .hour_runs = {}};
   for (const ExperimentEstimate& estimate : own) {
     times.run_s.push_back(pace.at(estimate.experiment) * estimate.run_s);

@@ -12,6 +12,15 @@
 /// What each budget would simulate of a study, and how long that takes on this machine.
 namespace repose::calibrate {
 
+/// By the name of the experiment: seconds of a core here for a second of the program's own measure.
+using Pace = std::map<std::string, double>;
+
+/// Makes a run of each experiment, coefficients in the middle of their bounds, for `longest_s` at
+/// most, and saves nothing. @param timed, is_interrupted  as budget_times()
+Pace timed_pace(const PreparedStudy& study, double longest_s,
+                const std::atomic<bool>& is_interrupted,
+                const std::function<void(std::size_t done, std::size_t of)>& timed = {});
+
 struct BudgetTime {
   Budget budget;
   std::vector<ExperimentEstimate> experiments;

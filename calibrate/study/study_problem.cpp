@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -332,10 +334,9 @@ class StudyProblemBuilder {
 
   /// A study of many grains costs more than a budget is made for.
   void allow_a_fit() {
-    constexpr double kMinFit = 1.6;  // first rounds: one, and for the later ones over half of it
     const Cost least = minimum_cost(made_.problem);
     FitSettings& settings = made_.problem.settings;
-    const double enough_s = kMinFit * least.seconds;
+    const double enough_s = least_budget_s(made_.problem);
     if (settings.budget_s >= enough_s) return;
     // Minutes would be those of the core that cost_s is of, not of this machine.
     made_.notes.push_back(fmt::format(
@@ -483,6 +484,18 @@ std::vector<base::Fault> impossible_readings(const dem::Study& study,
          .fix = thousands + "correct the reading, or the study."});
   }
   return errors;
+}
+
+std::string name_of_minutes(double minutes) { return fmt::format("{:g}min", minutes); }
+
+std::optional<double> minutes_in(const std::string& budget) {
+  constexpr std::string_view kUnit = "min";
+  if (!budget.ends_with(kUnit)) return std::nullopt;
+  const std::string digits = budget.substr(0, budget.size() - kUnit.size());
+  char* end = nullptr;
+  const double minutes = std::strtod(digits.c_str(), &end);
+  if (digits.empty() || *end != '\0' || !(minutes > 0)) return std::nullopt;
+  return minutes;
 }
 
 Budget budget_named(const std::string& name) {

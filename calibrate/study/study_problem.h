@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,16 @@ struct Budget {
   int round_repeats = 2;         ///< fresh seeds at the best fit while checks still move it
   int verification_repeats = 3;  ///< in the last check, which the verdicts are made of
   int family_sets = 2;           ///< sets of the equivalence family that are checked
+  /// All of it is to end within so many minutes, as foreseen before it began (minutes_budget.h).
+  std::optional<double> minutes = {};
 };
 
 /// "quick", "standard" or "paper". Throws base::InputError for another name.
 Budget budget_named(const std::string& name);
+
+/// "20min", the name of a budget of so many minutes, and back: none for another name.
+std::string name_of_minutes(double minutes);
+std::optional<double> minutes_in(const std::string& budget);
 
 /// A coefficient with bounds, as the fit seeks it.
 Parameter sought_parameter(const std::string& name, const dem::Coefficient& coefficient);

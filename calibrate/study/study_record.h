@@ -44,6 +44,8 @@ struct StudyNotes {
   Measurement measurement;
   /// Of study.toml and clump.json, by name; those of earlier versions have none.
   std::map<std::string, std::string> fingerprints;
+  /// What a budget of minutes was found to allow; none of one that its name says all of.
+  std::optional<Budget> limits = {};
 };
 
 /// What a study folder is about: enough to know, from the folder alone, what was sought, of what,

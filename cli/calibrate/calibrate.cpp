@@ -130,6 +130,22 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 
 }  // namespace
 
+namespace {
+
+/// Simulated here.
+ExitCode run_here(const CalibrateArguments& arguments) {
+  const CalibratePlan plan = plan_calibrate(arguments);
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
+  print_lines(plan.notes);
+  if (arguments.is_dry_run) return run_dry(plan);
+  return finish(plan, with_messages(plan, [&](const calibrate::StudyWatch& watch) {
+                  return fit_study(plan, watch);
+                }));
+}
+
+}  // namespace
+
 ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (has_engine(arguments)) return run_calibrate_engine(arguments);
   if (!arguments.runs.empty()) return run_calibrate_runs(arguments);
@@ -156,14 +172,12 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
          "process with --jobs."});
     return ExitCode::bad_input;
   }
-  const CalibratePlan plan = plan_calibrate(arguments);
-  print_lines(plan.errors);
-  if (!plan.errors.empty()) return ExitCode::bad_input;
-  print_lines(plan.notes);
-  if (arguments.is_dry_run) return run_dry(plan);
-  return finish(plan, with_messages(plan, [&](const calibrate::StudyWatch& watch) {
-                  return fit_study(plan, watch);
-                }));
+  try {
+    return run_here(arguments);
+  } catch (const dem::Interrupted&) {
+    print_line("interrupted while it was timed; nothing was saved.");
+    return ExitCode::interrupted;
+  }
 }
 
 }  // namespace repose::cli

@@ -276,6 +276,30 @@ TEST_F(Calibrate, ADryRunTellsProgramsWhatItTellsPeople) {
   EXPECT_EQ(files_in("study_calibration/runs"), 0U);
 }
 
+TEST_F(Calibrate, TakesTheMinutesItIsGivenAndResumesByTheSamePlan) {
+  const Finished done = run({"study.toml", "--minutes", "1"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("with their shares of the work: first round"));
+  const json notes = json::parse(text("study_calibration/study.json"));
+  EXPECT_EQ(notes["budget"]["limits"]["minutes"], 1);
+  const std::string first = text("study_calibration/result.json");
+  EXPECT_EQ(json::parse(first)["provenance"]["budget"]["name"], "1min");
+  ASSERT_EQ(run({"study.toml", "--minutes", "1"}).exit_code, 0);
+  EXPECT_EQ(text("study_calibration/result.json"), first);
+
+  const Finished short_of_time = run({"study.toml", "--minutes", "0.1", "--out", "short"});
+  EXPECT_EQ(short_of_time.exit_code, 2);
+  EXPECT_THAT(short_of_time.err, AllOf(HasSubstr("(--minutes) = 0.1"), HasSubstr("the least fit"),
+                                       HasSubstr("Fix: ")));
+  for (const Words& others : {Words{"--budget", "standard"}, Words{"--method", "paper"}}) {
+    Words words = {"study.toml", "--minutes", "1"};
+    words.insert(words.end(), others.begin(), others.end());
+    const Finished both = run(words);
+    EXPECT_EQ(both.exit_code, 2);
+    EXPECT_THAT(both.err, HasSubstr("--minutes: "));
+  }
+}
+
 TEST_F(Calibrate, SaysHowFarItIsInAFile) {
   folder_.write("mine.json", std::string("{}"));
   EXPECT_THAT(run({"study.toml", "--progress", "mine.json"}).err, HasSubstr("--progress"));
