@@ -271,6 +271,11 @@ class Study {
       const double width = parameter.max - parameter.min;
       summary.values.push_back(parameter.min + mean[j] * width);
       summary.sd.push_back(sd[j] * width);
+      std::vector<double> places;
+      for (const Point& point : sets_.points) places.push_back(point[j]);
+      std::ranges::sort(places);
+      summary.intervals.push_back({parameter.min + quantile(places, .025) * width,
+                                   parameter.min + quantile(places, .975) * width});
     }
     summaries_.push_back(summary);
   }

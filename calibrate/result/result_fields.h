@@ -426,6 +426,7 @@ std::vector<std::string> names_of(const Items& items) {
 
 template <typename Io>
 void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& provenance) {
+  if (io.has("provisional", !joint.provisional.empty())) io("provisional", joint.provisional);
   io("parameters", joint.parameters);
   io("observables", joint.observables);
   io.names() = {names_of(joint.parameters), names_of(joint.observables), {}};

@@ -83,6 +83,28 @@ std::optional<StudyResult> fit_as_published(const PreparedStudy& study, const St
   return result_of(study.record, study.problem, *outcome);
 }
 
+bool has_final_result(const fs::path& folder) {
+  try {
+    const auto result = read_result(folder);
+    return result && !is_provisional(*result);
+  } catch (const base::InputError&) {
+    return false;  // damaged
+  }
+}
+
+/// In place of a result, but not of a final one of the same study, whose runs were lost.
+void leave_provisional(const PreparedStudy& study, const StudyResult& result, const Note& note) {
+  if (has_final_result(study.folder)) return;
+  const fs::path file = study.folder / kResultFile;
+  try {
+    base::write_whole_file(file, to_json(result));
+  } catch (const base::InputError& error) {
+    note_all(note, {error.what()});  // it was stopped all the same, and its runs are there
+    return;
+  }
+  note_all(note, {fmt::format("{}: provisional, what is known so far", file.string())});
+}
+
 std::optional<StudyResult> fit_jointly(const PreparedStudy& study, const StudyContext& context,
                                        const Note& note) {
   Problem problem = study.problem.problem;
@@ -91,8 +113,12 @@ std::optional<StudyResult> fit_jointly(const PreparedStudy& study, const StudyCo
     problem.offers = offers_in(context.folder, study.record.study, study.record.grain);
   }
   note_all(note, {foreseen(estimate_of(problem, study.record.budget))});
-  const auto outcome =
-      with_remarks(context, note, [&] { return run_study(problem, study.record.budget, context); });
+  StudyContext with_leave = context;
+  with_leave.leave = [&](const ProvisionalOutcome& known) {
+    leave_provisional(study, result_of(study.record, study.problem, known), note);
+  };
+  const auto outcome = with_remarks(
+      context, note, [&] { return run_study(problem, study.record.budget, with_leave); });
   if (!outcome) return std::nullopt;
   if (outcome->reused > 0) {
     note_all(note,

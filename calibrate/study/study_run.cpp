@@ -399,25 +399,45 @@ void note_checks(StudyOutcome& outcome) {
   note_last_step(outcome);
 }
 
+/// All that is simulated and fitted; false when interrupted.
+bool run_to_the_end(const Problem& problem, const Budget& budget, const StudyContext& context,
+                    JobRunner& runner, StudyOutcome& outcome) {
+  std::vector<std::vector<double>> tried;
+  try {
+    const FitWatch watch(context.is_interrupted);
+    if (!run_rounds(problem, budget, runner, outcome.runs)) return false;
+    if (!simulate_equivalent_sets(problem, budget, runner, tried, outcome)) return false;
+    if (!fit_and_check(problem, budget, runner, tried, outcome)) return false;
+    judge_family(problem, outcome);
+    outcome.assumed_scatters = assumed_scatters(problem, outcome.runs, outcome.fit);
+    if (!predict(problem, runner, outcome)) return false;
+    if (!check_stiffness(problem, budget, runner, outcome)) return false;
+    if (!refine(problem, budget, context.simulator, runner, outcome)) return false;
+    return vary_inputs(problem, runner, outcome);
+  } catch (const FitInterrupted&) {
+    return false;
+  }
+}
+
+/// Hands over what the complete rounds say, which takes as long as a fit.
+void leave(const Problem& problem, const StudyContext& context, const JobRunner& runner,
+           const std::vector<Run>& runs) {
+  if (!context.leave || runs.empty()) return;
+  try {
+    context.leave({.stage = runner.stage(), .fit = fit_jointly(problem, runs), .runs = runs});
+  } catch (const base::InputError&) {
+    // Too few runs have a reading: nothing is known yet.
+  }
+}
+
 }  // namespace
 
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
                                       const StudyContext& context) {
   JobRunner runner(problem, context);
   StudyOutcome outcome;
-  std::vector<std::vector<double>> tried;
-  try {
-    const FitWatch watch(context.is_interrupted);
-    if (!run_rounds(problem, budget, runner, outcome.runs)) return std::nullopt;
-    if (!simulate_equivalent_sets(problem, budget, runner, tried, outcome)) return std::nullopt;
-    if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
-    judge_family(problem, outcome);
-    outcome.assumed_scatters = assumed_scatters(problem, outcome.runs, outcome.fit);
-    if (!predict(problem, runner, outcome)) return std::nullopt;
-    if (!check_stiffness(problem, budget, runner, outcome)) return std::nullopt;
-    if (!refine(problem, budget, context.simulator, runner, outcome)) return std::nullopt;
-    if (!vary_inputs(problem, runner, outcome)) return std::nullopt;
-  } catch (const FitInterrupted&) {
+  if (!run_to_the_end(problem, budget, context, runner, outcome)) {
+    leave(problem, context, runner, outcome.runs);
     return std::nullopt;
   }
   note_checks(outcome);

@@ -300,6 +300,19 @@ TEST_F(Calibrate, TakesTheMinutesItIsGivenAndResumesByTheSamePlan) {
   }
 }
 
+TEST_F(Calibrate, SaysAfterEachRoundWhatIsKnown) {
+  const Finished done = run({"study.toml", "--progress", "p.json"});
+  ASSERT_EQ(done.exit_code, 0);
+  EXPECT_THAT(done.err, HasSubstr("after round 1, provisional (95 %): particle_wall.restitution "));
+  const json rounds = json::parse(text("p.json"))["rounds"];
+  for (const json& round : rounds) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_LT(round["intervals"][k][0], round["values"][k]);
+      EXPECT_GT(round["intervals"][k][1], round["values"][k]);
+    }
+  }
+}
+
 TEST_F(Calibrate, SaysHowFarItIsInAFile) {
   folder_.write("mine.json", std::string("{}"));
   EXPECT_THAT(run({"study.toml", "--progress", "mine.json"}).err, HasSubstr("--progress"));
