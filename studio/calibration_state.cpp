@@ -103,6 +103,12 @@ Json files_in(const fs::path& folder) {
   return files;
 }
 
+/// Null where there is none, or a provisional one: the report shows that.
+Json final_result_in(const fs::path& folder) {
+  Json result = json_in_file(folder / calibrate::kResultFile);
+  return result.is_object() && result.contains("provisional") ? Json(nullptr) : result;
+}
+
 /// Of an existing result, whether it is of the study as it is now.
 bool is_current(const StudyFolder& studies, const std::string& study, const fs::path& folder) {
   const auto text = base::read_file_if_there(folder / calibrate::kResultFile);
@@ -126,7 +132,7 @@ Json Calibrations::state(const std::string& study) const {
   }
   const bool is_inside = is_within(folder, studies_.folder());
   const bool is_locked = base::is_locked_by_another(calibrate::lock_file_in(folder));
-  const Json result = is_inside ? json_in_file(folder / calibrate::kResultFile) : Json(nullptr);
+  const Json result = is_inside ? final_result_in(folder) : Json(nullptr);
   const int runs = is_inside ? runs_in(folder) : 0;
   // A plan leaves runs there, too; a calibration says first whose they are.
   std::error_code ignored;

@@ -190,8 +190,12 @@ void Calibrations::start(const std::string& study, const std::string& name,
     base::refuse(folder, "leads out of the folder", "move it away.");
   }
   if (name == "calibrate") {
-    task->words = {"calibrate", own, "--budget",
-                   calibrate::budget_named(amount.empty() ? "quick" : amount).name};
+    if (const auto minutes = calibrate::minutes_in(amount)) {
+      task->words = {"calibrate", own, "--minutes", fmt::format("{:g}", *minutes)};
+    } else {
+      task->words = {"calibrate", own, "--budget",
+                     calibrate::budget_named(amount.empty() ? "quick" : amount).name};
+    }
     task->extra = {"--progress", (folder.filename() / kProgressFile).string()};
   } else if (name == "plan") {
     task->words = {"plan", own};

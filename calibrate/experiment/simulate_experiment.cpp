@@ -125,6 +125,12 @@ class ExperimentRunner {
         saved_at = Clock::now();
       };
     }
+    if (options_.watch_work) {
+      record.is_restart_due = [] { return true; };
+      record.save_restart = [&](const dem::Simulation&, const dem::RunProgress& progress) {
+        options_.watch_work(progress.work.clump_steps);
+      };
+    }
     const double whole = spec_.viewing.views > 0 ? kSimulationFraction : 1;
     return spec_.simulator->run(
         {.spec = spec_,

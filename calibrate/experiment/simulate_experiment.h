@@ -22,6 +22,8 @@ struct SimulateOptions {
   std::optional<TrajectoryPlan> trajectory;
   /// Called periodically with the completed fraction, from any thread; false interrupts it.
   std::function<bool(double fraction)> report;
+  /// Is told now and then how many grain steps are done, in place of saving the run half-way.
+  std::function<void(double clump_steps)> watch_work = {};
 };
 
 /// Makes one run: from the folder where it is there, else by simulating it, from the start or from

@@ -53,6 +53,11 @@ Cost minimum_cost(const Problem& problem) {
   return cost;
 }
 
+double least_budget_s(const Problem& problem) {
+  constexpr double kFirstRounds = 1.6;
+  return kFirstRounds * minimum_cost(problem).seconds;
+}
+
 std::vector<int> first_round_jobs(const Problem& problem) {
   const std::vector<Experiment> experiments = measured_experiments(problem);
   const Cost least = minimum_cost(problem);

@@ -21,6 +21,10 @@ Cost minimum_cost(const Experiment& experiment);
 /// Of the smallest first round.
 Cost minimum_cost(const Problem& problem);
 
+/// Budget of the least fit that is made, s: its first round is the smallest, and those after it
+/// have over half as much.
+double least_budget_s(const Problem& problem);
+
 /// Of the seconds, for the first round.
 inline constexpr double kFirstFraction = .35;
 

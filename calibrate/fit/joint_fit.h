@@ -125,6 +125,8 @@ struct RoundSummary {
   double seconds = 0;          ///< so far, estimated
   std::vector<double> values;  ///< middle of the plausible sets, per parameter
   std::vector<double> sd;      ///< their scatter
+  /// 95 % of them, per parameter; none in a result, whose fit says more.
+  std::vector<Interval> intervals = {};
 };
 
 /// An experiment that the advice names and the study does not have.

@@ -204,6 +204,11 @@ class Study {
       const double width = parameter.max - parameter.min;
       summary.values.push_back(parameter.min + mean[j] * width);
       summary.sd.push_back(sd[j] * width);
+      std::vector<double> places;
+      for (const Point& point : sets_.points) places.push_back(point[j]);
+      std::ranges::sort(places);
+      summary.intervals.push_back({parameter.min + quantile(places, .025) * width,
+                                   parameter.min + quantile(places, .975) * width});
     }
     summaries_.push_back(summary);
   }
@@ -245,7 +250,7 @@ class Study {
 
   /// So many of its usual runs, or what is as long and tells more.
   std::vector<ChosenRun> chosen_runs(const Experiment& experiment, std::size_t count, double left_s,
-                                   const std::vector<Point>& candidates) const {
+                                     const std::vector<Point>& candidates) const {
     std::vector<Surrogate> surrogates;
     std::vector<double> weights;
     for (const std::size_t i : observables_of(experiment)) {

@@ -157,6 +157,7 @@ Budget plan_budget(double core_s) {
   Budget budget = budget_named("quick");
   budget.name = "plan";
   budget.settings.budget_s = core_s / kFirstFraction;
+  budget.is_full = true;
   return budget;
 }
 
@@ -168,6 +169,28 @@ std::vector<Job> plan_jobs(const OfferedStudy& offered) {
     observable.name = observable.experiment = experiment.name;
   }
   return first_round(everything);
+}
+
+std::string foreseen(const OfferedStudy& offered, double asked_s) {
+  constexpr double kMinute_s = 60, kMore = 1.1;
+  std::map<std::string, int> counts;
+  double all_s = 0;
+  for (const Job& job : plan_jobs(offered)) {
+    ++counts[job.experiment];
+    all_s += run_s_of(offered.problem, job);
+  }
+  std::string parts;
+  for (const auto& [experiment, count] : counts) {
+    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", experiment, count);
+  }
+  return fmt::format(
+      "simulates {} for about {:.2g} minutes of one core, by the program's own measure{}", parts,
+      all_s / kMinute_s,
+      all_s > kMore * asked_s
+          ? fmt::format(": more than the {:g} asked for, and the least that tells what these "
+                        "experiments determine. Fix, to be faster: fewer or softer grains",
+                        asked_s / kMinute_s)
+          : std::string());
 }
 
 std::optional<Plan> make_plan(const OfferedStudy& offered, const StudyContext& context,

@@ -50,6 +50,10 @@ Budget plan_budget(double core_s);
 /// larger budget begin with those of a smaller one.
 std::vector<Job> plan_jobs(const OfferedStudy& offered);
 
+/// How many runs that is of each experiment, and how long it takes, in a sentence.
+/// @param asked_s  of one core, by the program's own measure: said where the least is more
+std::string foreseen(const OfferedStudy& offered, double asked_s);
+
 /// Simulates each experiment over the whole box, and says what it tells. Runs are kept: a
 /// calibration in the same folder begins with them. None when it was interrupted.
 /// @throws base::InputError  the study has a protocol that cannot be run; a measured

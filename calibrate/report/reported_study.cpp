@@ -200,8 +200,9 @@ std::vector<MeasuredNumber> measured_of(const StudyRecord& record) {
 std::map<std::string, double> values_checked(const StudyResult& result) {
   std::map<std::string, double> values;
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
-    for (std::size_t i = 0; i < joint->parameters.size(); ++i) {
-      values[joint->parameters[i].name] = joint->agreement.values.at(i);
+    const std::size_t checked = std::min(joint->parameters.size(), joint->agreement.values.size());
+    for (std::size_t i = 0; i < checked; ++i) {
+      values[joint->parameters[i].name] = joint->agreement.values[i];
     }
   } else {
     const auto& published = std::get<PublishedResult>(result.found);

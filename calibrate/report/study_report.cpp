@@ -58,6 +58,11 @@ Document document_of(const ReportedStudy& study) {
       .program = base::kProgram};
   std::vector<Chapter> chapters;
   if (study.result) {
+    if (is_provisional(*study.result)) {
+      document.state =
+          fmt::format("Provisional: {}. This is what is known so far, not a final result.",
+                      std::get<JointResult>(study.result->found).provisional);
+    }
     chapters = finished_chapters(study, *study.result);
   } else {
     document.state = "Unfinished: this study has no result yet.";

@@ -5,6 +5,7 @@
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
+#include "calibrate/study/study_problem.h"
 
 namespace repose::calibrate::report {
 namespace {
@@ -25,7 +26,11 @@ std::string command_to_go_on(const ReportedStudy& study) {
   if (study.study) {
     command += quoted_word(study.study->file);
     if (study.study->method != "joint") command += " --method " + quoted_word(study.study->method);
-    if (study.study->budget != "quick") command += " --budget " + quoted_word(study.study->budget);
+    if (const auto minutes = minutes_in(study.study->budget)) {
+      command += fmt::format(" --minutes {:g}", *minutes);
+    } else if (study.study->budget != "quick") {
+      command += " --budget " + quoted_word(study.study->budget);
+    }
     for (const std::string& setting : study.study->settings) {
       command += " --set " + quoted_word(setting);
     }

@@ -186,6 +186,8 @@ struct JointResult {
   /// Of the last check with fresh seeds; which parameters it was of is in `agreement`. None: there
   /// was none, and nothing is known but what surfaces through the runs say.
   std::optional<AgreementVerdict> verdict;
+  /// Of a study that was interrupted, and that the same command goes on with: where; else empty.
+  std::string provisional = {};
   bool is_of_table = false;  ///< another program made the runs: Provenance::table
   OverallAgreement agreement;
   std::vector<Prediction> held_out;  ///< readings that were predicted, not fitted; or none
@@ -244,6 +246,11 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
                       const StudyOutcome& outcome);
 StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
                       const PublishedOutcome& outcome);
+StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
+                      const ProvisionalOutcome& outcome);
+
+/// It is no final one: JointResult::provisional.
+bool is_provisional(const StudyResult& result);
 
 /// The same text; numbers that do not exist are equal.
 bool operator==(const StudyResult& one, const StudyResult& other);

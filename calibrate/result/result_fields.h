@@ -29,6 +29,7 @@ void fields(Io& io, Held<Io, StudyIdentity>& study) {
   io.object("budget", [&](Io& inner) {
     inner("name", study.budget);
     inner("description", study.budget_description);
+    if (inner.has("mixed", study.is_mixed)) inner("mixed", study.is_mixed);
   });
 }
 
@@ -437,6 +438,7 @@ std::vector<std::string> names_of(const Items& items) {
 
 template <typename Io>
 void joint_fields(Io& io, Held<Io, JointResult>& joint, Held<Io, Provenance>& provenance) {
+  if (io.has("provisional", !joint.provisional.empty())) io("provisional", joint.provisional);
   io("parameters", joint.parameters);
   io("observables", joint.observables);
   io.names() = {names_of(joint.parameters), names_of(joint.observables), {}};

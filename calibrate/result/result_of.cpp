@@ -358,4 +358,22 @@ StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
           .found = std::move(published)};
 }
 
+StudyResult result_of(const StudyRecord& record, const StudyProblem& problem,
+                      const ProvisionalOutcome& outcome) {
+  JointResult joint = fitted_result(problem.problem, outcome.fit, outcome.runs);
+  joint.provisional = fmt::format("interrupted in \"{}\", with {} simulations in the fit",
+                                  outcome.stage, outcome.runs.size());
+  joint.agreement.text = "the study was interrupted before its last check";
+  joint.warnings = problem.notes;
+  joint.warnings.insert(joint.warnings.end(), outcome.fit.warnings.begin(),
+                        outcome.fit.warnings.end());
+  return {.provenance = provenance_of(record, problem.problem, outcome.runs, {}),
+          .found = std::move(joint)};
+}
+
+bool is_provisional(const StudyResult& result) {
+  const auto* joint = std::get_if<JointResult>(&result.found);
+  return joint != nullptr && !joint->provisional.empty();
+}
+
 }  // namespace repose::calibrate

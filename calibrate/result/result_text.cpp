@@ -396,6 +396,16 @@ std::string agreement_sentence(const JointResult& joint) {
                      is_doubtful ? " Do not use these coefficients until you know why." : "");
 }
 
+/// Empty of a final result.
+std::string provisional_sentence(const JointResult& joint) {
+  if (joint.provisional.empty()) return {};
+  return fmt::format(
+      "PROVISIONAL, no final result: {}. Values, intervals and verdicts are those known so far, "
+      "and "
+      "may change. The same repose calibrate command goes on from here.",
+      joint.provisional);
+}
+
 std::string determined_sentence(const JointResult& joint) {
   const auto with = [&](Verdict verdict) {
     return std::ranges::count(joint.parameters, verdict, &ResultParameter::verdict);
@@ -435,8 +445,8 @@ std::string determined_sentence(const JointResult& joint) {
 }  // namespace
 
 std::vector<std::string> summary_sentences(const JointResult& joint) {
-  std::vector<std::string> sentences = {predictions_text(joint), agreement_sentence(joint),
-                                        determined_sentence(joint)};
+  std::vector<std::string> sentences = {provisional_sentence(joint), predictions_text(joint),
+                                        agreement_sentence(joint), determined_sentence(joint)};
   std::erase(sentences, "");
   return sentences;
 }

@@ -1,5 +1,6 @@
 #include "calibrate/run/budget_times.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -12,9 +13,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kHour_s = 3600;
-
-/// By the name of the experiment: seconds here for a second of the program's own measure.
-using Pace = std::map<std::string, double>;
+constexpr double kLongest_s = 20;  // of a run that is timed
 
 struct BudgetPlan {
   Budget budget;
@@ -22,43 +21,25 @@ struct BudgetPlan {
   std::vector<ExperimentEstimate> estimates;
 };
 
-BudgetPlan plan_of(const PreparedStudy& study, const char* name) {
-  BudgetPlan made{.budget = budget_named(name), .problem = {}, .estimates = {}};
+BudgetPlan plan_of(const PreparedStudy& study, Budget budget) {
+  BudgetPlan made{.budget = std::move(budget), .problem = {}, .estimates = {}};
   made.problem = problem_of(study.record.study, study.record.grain, made.budget).problem;
   made.estimates = estimate_of(made.problem, made.budget);
   return made;
 }
 
-Pace timed_pace(const PreparedStudy& study, const std::vector<ExperimentEstimate>& runs,
-                const std::atomic<bool>& is_interrupted,
-                const std::function<void(std::size_t, std::size_t)>& timed) {
-  constexpr double kLongest_s = 20;
-  const Problem& problem = study.problem.problem;
-  const StudySimulator simulator(study.record.study, study.record.grain, problem.parameters);
-  Job job{.experiment = {}, .values = {}, .seed = problem.settings.seed};
-  for (const Parameter& parameter : problem.parameters) {
-    job.values.push_back((parameter.min + parameter.max) / 2);
-  }
-  Pace pace;
-  if (timed) timed(0, runs.size());
-  for (const ExperimentEstimate& run : runs) {
-    job.experiment = run.experiment;
-    const double run_s = timed_run_s(simulator.spec(job), job.seed, kLongest_s, is_interrupted);
-    pace[run.experiment] = run_s / run.run_s;
-    if (timed) timed(pace.size(), runs.size());
-  }
-  return pace;
-}
-
 BudgetTime time_of(BudgetPlan plan, const Pace& pace, int cores) {
-  double all_s = 0;
+  BudgetTime time{.budget = std::move(plan.budget), .experiments = {}, .phases = {}, .seconds = 0};
   for (const ExperimentEstimate& estimate : plan.estimates) {
-    all_s += pace.at(estimate.experiment) *
-             ((estimate.fit_runs + estimate.check_runs) * estimate.run_s + estimate.varied_s);
+    for (const auto& [phase, work] : estimate.phases) {
+      const double seconds = pace.at(estimate.experiment) * work.seconds / cores;
+      time.phases[phase].runs += work.runs;
+      time.phases[phase].seconds += seconds;
+      time.seconds += seconds;
+    }
   }
-  return {.budget = std::move(plan.budget),
-          .experiments = std::move(plan.estimates),
-          .seconds = all_s / cores};
+  time.experiments = std::move(plan.estimates);
+  return time;
 }
 
 /// What an hour more on all these cores is worth.
@@ -75,13 +56,44 @@ std::vector<int> hour_runs(const BudgetPlan& plan, const Pace& pace, int cores) 
 
 }  // namespace
 
+Pace timed_pace(const PreparedStudy& study, double longest_s,
+                const std::atomic<bool>& is_interrupted,
+                const std::function<void(std::size_t, std::size_t)>& timed) {
+  const Problem& problem = study.problem.problem;
+  const std::vector<ExperimentEstimate> runs = estimate_of(problem, study.record.budget);
+  const StudySimulator simulator(study.record.study, study.record.grain, problem.parameters);
+  Job job{.experiment = {}, .values = {}, .seed = problem.settings.seed};
+  for (const Parameter& parameter : problem.parameters) {
+    job.values.push_back((parameter.min + parameter.max) / 2);
+  }
+  Pace pace;
+  if (timed) timed(0, runs.size());
+  for (const ExperimentEstimate& run : runs) {
+    job.experiment = run.experiment;
+    const double run_s =
+        timed_run_s(simulator.spec(job), job.seed, run.run_s, longest_s, is_interrupted);
+    pace[run.experiment] = run_s / run.run_s;
+    if (timed) timed(pace.size(), runs.size());
+  }
+  return pace;
+}
+
 BudgetTimes budget_times(const PreparedStudy& study, const std::atomic<bool>& is_interrupted,
                          const std::function<void(std::size_t, std::size_t)>& timed) {
-  const Pace pace = timed_pace(study, estimate_of(study.problem.problem, study.record.budget),
-                               is_interrupted, timed);
-  BudgetTimes times{.cores = study.threads, .budgets = {}, .hour_runs = {}};
-  for (const char* name : {"quick", "standard"}) {
-    BudgetPlan plan = plan_of(study, name);
+  const std::vector<ExperimentEstimate> own =
+      estimate_of(study.problem.problem, study.record.budget);
+  const Pace pace = timed_pace(study, kLongest_s, is_interrupted, timed);
+  BudgetTimes times{.cores = study.threads, .budgets = {}, .run_s = {}, .hour_runs = {}};
+  for (const ExperimentEstimate& estimate : own) {
+    times.run_s.push_back(pace.at(estimate.experiment) * estimate.run_s);
+  }
+  std::vector<Budget> budgets = {budget_named("quick"), budget_named("standard")};
+  if (std::ranges::find(budgets, study.record.budget.name, &Budget::name) == budgets.end()) {
+    budgets.insert(budgets.begin(), study.record.budget);
+  }
+  for (Budget& budget : budgets) {
+    budget.is_full = study.record.budget.is_full;
+    BudgetPlan plan = plan_of(study, std::move(budget));
     times.hour_runs = hour_runs(plan, pace, times.cores);  // beside the largest
     times.budgets.push_back(time_of(std::move(plan), pace, times.cores));
   }
@@ -90,18 +102,30 @@ BudgetTimes budget_times(const PreparedStudy& study, const std::atomic<bool>& is
 
 std::string to_json(const BudgetTimes& times) {
   using Json = nlohmann::ordered_json;
-  Json json{{"cores", times.cores}, {"budgets", Json::array()}, {"hour", Json::array()}};
+  Json json{{"cores", times.cores},
+            {"runs", Json::array()},
+            {"budgets", Json::array()},
+            {"hour", Json::array()}};
   for (const BudgetTime& time : times.budgets) {
     Json experiments = Json::array();
     for (const ExperimentEstimate& one : time.experiments) {
       experiments.push_back({{"experiment", one.experiment},
-                             {"fit_runs", one.fit_runs},
-                             {"check_runs", one.check_runs + one.varied_runs}});
+                             {"fit_runs", one.fit_runs()},
+                             {"check_runs", one.all().runs - one.fit_runs()}});
+    }
+    Json phases = Json::array();
+    for (const auto& [phase, work] : time.phases) {
+      phases.push_back({{"phase", name_of(phase)}, {"runs", work.runs}, {"seconds", work.seconds}});
     }
     json["budgets"].push_back({{"budget", time.budget.name},
                                {"description", time.budget.description},
                                {"seconds", time.seconds},
-                               {"experiments", experiments}});
+                               {"experiments", experiments},
+                               {"phases", phases}});
+  }
+  for (std::size_t k = 0; k < times.run_s.size(); ++k) {
+    json["runs"].push_back({{"experiment", times.budgets.front().experiments[k].experiment},
+                            {"seconds", times.run_s[k]}});
   }
   for (std::size_t k = 0; k < times.hour_runs.size(); ++k) {
     json["hour"].push_back({{"experiment", times.budgets.front().experiments[k].experiment},

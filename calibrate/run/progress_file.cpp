@@ -48,8 +48,15 @@ void ProgressFile::write() {
         {{"name", parameter.name}, {"bounds", {parameter.min, parameter.max}}});
   }
   for (const RoundSummary& round : progress_.rounds) {
-    json["rounds"].push_back(
-        {{"round", round.round}, {"jobs", round.jobs}, {"values", round.values}, {"sd", round.sd}});
+    Json intervals = Json::array();
+    for (const Interval& interval : round.intervals) {
+      intervals.push_back({interval.low, interval.high});
+    }
+    json["rounds"].push_back({{"round", round.round},
+                              {"jobs", round.jobs},
+                              {"values", round.values},
+                              {"sd", round.sd},
+                              {"intervals", intervals}});
   }
   try {
     base::write_whole_file(file_, json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n');

@@ -17,6 +17,7 @@
 #include "calibrate/published/published_method.h"
 #include "calibrate/run/check_heaps.h"
 #include "calibrate/simulators/simulators.h"
+#include "calibrate/study/study_estimate.h"
 #include "calibrate/study/study_run.h"
 
 namespace repose::calibrate {
@@ -82,6 +83,28 @@ std::optional<StudyResult> fit_as_published(const PreparedStudy& study, const St
   return result_of(study.record, study.problem, *outcome);
 }
 
+bool has_final_result(const fs::path& folder) {
+  try {
+    const auto result = read_result(folder);
+    return result && !is_provisional(*result);
+  } catch (const base::InputError&) {
+    return false;  // damaged
+  }
+}
+
+/// In place of a result, but not of a final one of the same study, whose runs were lost.
+void leave_provisional(const PreparedStudy& study, const StudyResult& result, const Note& note) {
+  if (has_final_result(study.folder)) return;
+  const fs::path file = study.folder / kResultFile;
+  try {
+    base::write_whole_file(file, to_json(result));
+  } catch (const base::InputError& error) {
+    note_all(note, {error.what()});  // it was stopped all the same, and its runs are there
+    return;
+  }
+  note_all(note, {fmt::format("{}: provisional, what is known so far", file.string())});
+}
+
 std::optional<StudyResult> fit_jointly(const PreparedStudy& study, const StudyContext& context,
                                        const Note& note) {
   Problem problem = study.problem.problem;
@@ -89,8 +112,13 @@ std::optional<StudyResult> fit_jointly(const PreparedStudy& study, const StudyCo
   if (study.record.study.engine.is_own()) {
     problem.offers = offers_in(context.folder, study.record.study, study.record.grain);
   }
-  const auto outcome =
-      with_remarks(context, note, [&] { return run_study(problem, study.record.budget, context); });
+  note_all(note, {foreseen(estimate_of(problem, study.record.budget))});
+  StudyContext with_leave = context;
+  with_leave.leave = [&](const ProvisionalOutcome& known) {
+    leave_provisional(study, result_of(study.record, study.problem, known), note);
+  };
+  const auto outcome = with_remarks(
+      context, note, [&] { return run_study(problem, study.record.budget, with_leave); });
   if (!outcome) return std::nullopt;
   if (outcome->reused > 0) {
     note_all(note,

@@ -43,7 +43,8 @@ struct StudyWatch {
 /// Reads a study, measures its pictures and films, fits it, checks the fit in simulations, and
 /// leaves everything in the folder, result.json last: what `repose report`, `export` and `simulate`
 /// read. Simulations that the folder holds are not made again.
-/// @return  none when it was interrupted; the same request goes on from there
+/// @return  none when it was interrupted; the same request goes on from there. Meanwhile
+///   result.json is what is known, marked provisional, where that is anything
 /// @throws base::InputError  every error of the study, its sheets, pictures and films; a folder
 ///   with somebody's files, or that another process has or that cannot be written.
 /// @throws std::runtime_error  this machine cannot draw the pictures of heaps.

@@ -41,6 +41,7 @@ double run_s_of(const Problem& problem, const Job& job) {
 std::optional<std::vector<Run>> JobRunner::get(const std::string& stage,
                                                const std::vector<Job>& jobs,
                                                std::optional<double> later_s) {
+  stage_ = stage;
   std::vector<std::optional<Run>> runs(jobs.size());
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < jobs.size(); ++k) {

@@ -27,6 +27,13 @@ struct StudyProgress {
   std::vector<RoundSummary> rounds = {};  ///< of the fit, those that are complete
 };
 
+/// What is known of a study that was interrupted: a fit to what was complete, and not checked.
+struct ProvisionalOutcome {
+  std::string stage;  ///< that it was interrupted in
+  JointFit fit;
+  std::vector<Run> runs;  ///< that it was made from
+};
+
 /// By what they are done. All of it must outlive the study.
 struct StudyContext {
   const StudySimulator& simulator;
@@ -34,6 +41,8 @@ struct StudyContext {
   Executor& executor;
   const std::atomic<bool>& is_interrupted;
   std::function<void(const StudyProgress&)> report = [](const StudyProgress&) {};
+  /// Is handed what is known when it is interrupted, where that is enough for a fit.
+  std::function<void(const ProvisionalOutcome&)> leave = {};
 };
 
 /// About how long a job takes, s by the program's own measure.
@@ -54,6 +63,8 @@ class JobRunner {
   /// What those who watch are told of the rounds from now on.
   void tell(std::vector<RoundSummary> rounds) { rounds_ = std::move(rounds); }
 
+  /// The last that was begun.
+  const std::string& stage() const { return stage_; }
   int reused() const { return reused_; }
   int simulated() const { return simulated_; }
 
@@ -67,6 +78,7 @@ class JobRunner {
   const Problem& problem_;
   const StudyContext& context_;
   std::vector<RoundSummary> rounds_;
+  std::string stage_;
   int reused_ = 0;
   int simulated_ = 0;
 };

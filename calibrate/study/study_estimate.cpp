@@ -5,6 +5,8 @@
 #include <cmath>
 #include <mutex>
 
+#include <fmt/format.h>
+
 #include "calibrate/experiment/simulate_experiment.h"
 #include "calibrate/fit/budget.h"
 #include "calibrate/fit/input_effects.h"
@@ -13,6 +15,7 @@
 #include "calibrate/fit/sensitivity_check.h"
 #include "calibrate/fit/verification.h"
 #include "calibrate/study/study_run.h"
+#include "dem/experiment/experiment_table.h"
 
 namespace repose::calibrate {
 namespace {
@@ -28,13 +31,18 @@ std::vector<double> needs_of(const std::vector<Experiment>& experiments) {
   return needs;
 }
 
-std::vector<int> fit_runs(const Problem& problem, const std::vector<Experiment>& experiments) {
-  std::vector<int> runs = first_round_jobs(problem);
+/// Of rounds after the first.
+std::vector<int> later_runs(const Problem& problem, const std::vector<Experiment>& experiments,
+                            std::vector<int> round) {
+  std::vector<int> runs(round.size(), 0);
   Cost left{problem.settings.budget_s, problem.settings.max_jobs};
-  std::vector<int> round = runs;
+  for (const Experiment& experiment : experiments) {
+    left.seconds -= full_runs_of_first_round(experiment) * experiment.run_s;
+    left.jobs -= full_runs_of_first_round(experiment);
+  }
   for (int rounds_left = problem.settings.max_rounds - 1; rounds_left > 0; --rounds_left) {
     for (std::size_t e = 0; e < round.size(); ++e) {
-      left.seconds -= round[e] * experiments[e].run_s;
+      left.seconds -= round[e] * usual_run_s(experiments[e]);
       left.jobs -= round[e];
     }
     round = round_jobs(problem, needs_of(experiments), left, rounds_left);
@@ -71,55 +79,125 @@ InputPlan input_plan(const Problem& problem, int repeats) {
   return plan_inputs(problem, verification_jobs(problem, middle_of(problem), repeats, 0));
 }
 
-/// Of the last runs: those of stiffer grains, of grains of more spheres, and of other inputs.
-void count_last_runs(const Problem& problem, int repeats,
-                     std::vector<ExperimentEstimate>& estimates) {
-  std::vector<Job> jobs = input_plan(problem, repeats).jobs;
-  for (const AssumedInput input : {AssumedInput::stiffness, AssumedInput::spheres}) {
-    const auto more = plan_sensitivity(problem, input, middle_of(problem), repeats).jobs;
-    jobs.insert(jobs.end(), more.begin(), more.end());
-  }
+void count(Phase phase, const Problem& problem, const std::vector<Job>& jobs,
+           std::vector<ExperimentEstimate>& estimates) {
   for (ExperimentEstimate& estimate : estimates) {
+    PhaseWork& work = estimate.phases[phase];
     for (const Job& job : jobs) {
       if (job.experiment != estimate.experiment) continue;
-      if (job.inputs == AssumedInputs{}) {
-        ++estimate.check_runs;
-        continue;
-      }
-      ++estimate.varied_runs;
-      estimate.varied_s += run_s_of(experiment_named(problem, job.experiment), job.inputs);
+      ++work.runs;
+      work.seconds += run_s_of(experiment_named(problem, job.experiment), job.inputs);
     }
   }
 }
 
+void count(Phase phase, int runs, ExperimentEstimate& estimate) {
+  estimate.phases[phase] = {.runs = runs, .seconds = runs * estimate.run_s};
+}
+
+/// Of the last runs: those of stiffer grains, of grains of more spheres, and of other inputs.
+void count_last_runs(const Problem& problem, int repeats,
+                     std::vector<ExperimentEstimate>& estimates) {
+  const auto more = [&](AssumedInput input) {
+    return plan_sensitivity(problem, input, middle_of(problem), repeats).jobs;
+  };
+  count(Phase::stiffness, problem, more(AssumedInput::stiffness), estimates);
+  count(Phase::spheres, problem, more(AssumedInput::spheres), estimates);
+  count(Phase::inputs, problem, input_plan(problem, repeats).jobs, estimates);
+}
+
 }  // namespace
 
-std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& budget) {
+std::string_view name_of(Phase phase) {
+  switch (phase) {
+    case Phase::first_round:
+      return "first round";
+    case Phase::later_rounds:
+      return "later rounds";
+    case Phase::equal_sets:
+      return "equally good sets";
+    case Phase::checks:
+      return "checks";
+    case Phase::held_out:
+      return "what is held out";
+    case Phase::stiffness:
+      return "stiffer grains";
+    case Phase::spheres:
+      return "more spheres";
+    case Phase::inputs:
+      return "inputs held fixed, varied";
+  }
+  return {};
+}
+
+PhaseWork ExperimentEstimate::of(Phase phase) const {
+  const auto found = phases.find(phase);
+  return found == phases.end() ? PhaseWork{} : found->second;
+}
+
+int ExperimentEstimate::fit_runs() const {
+  return of(Phase::first_round).runs + of(Phase::later_rounds).runs;
+}
+
+PhaseWork ExperimentEstimate::all() const {
+  PhaseWork sum;
+  for (const auto& [phase, work] : phases) {
+    sum.runs += work.runs;
+    sum.seconds += work.seconds;
+  }
+  return sum;
+}
+
+std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& asked) {
+  const Budget budget = with_affordable_checks(asked, problem);
   const std::vector<Experiment> experiments = measured_experiments(problem);
-  const std::vector<int> runs = fit_runs(problem, experiments);
+  const std::vector<int> first = first_round_jobs(problem);
+  const std::vector<int> later = later_runs(problem, experiments, first);
   std::vector<ExperimentEstimate> estimates;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     const std::string& name = experiments[e].name;
-    const int checks = (kMaxCheckRounds - 1) * check_runs(problem, name, budget.round_repeats) +
-                       check_runs(problem, name, budget.verification_repeats) +
-                       budget.family_sets * check_runs(problem, name, kFamilyRepeats);
-    estimates.push_back({.experiment = name,
-                         .run_s = experiments[e].run_s,
-                         .fit_runs = runs[e],
-                         .check_runs = checks,
-                         .varied_runs = 0,
-                         .varied_s = 0});
+    ExperimentEstimate& estimate = estimates.emplace_back(
+        ExperimentEstimate{.experiment = name, .run_s = experiments[e].run_s});
+    const double usual_s = usual_run_s(experiments[e]);
+    const int full = full_runs_of_first_round(experiments[e]);
+    estimate.phases[Phase::first_round] = {.runs = first[e] + full,
+                                           .seconds = first[e] * usual_s + full * estimate.run_s};
+    estimate.phases[Phase::later_rounds] = {.runs = later[e], .seconds = later[e] * usual_s};
+    count(Phase::equal_sets, budget.family_sets * check_runs(problem, name, kFamilyRepeats),
+          estimate);
+    count(Phase::checks,
+          (kMaxCheckRounds - 1) * check_runs(problem, name, budget.round_repeats) +
+              check_runs(problem, name, budget.verification_repeats),
+          estimate);
   }
   for (const Experiment& experiment : held_out_experiments(problem)) {
-    estimates.push_back({.experiment = experiment.name,
-                         .run_s = experiment.run_s,
-                         .fit_runs = 0,
-                         .check_runs = prediction_runs(experiment),
-                         .varied_runs = 0,
-                         .varied_s = 0});
+    ExperimentEstimate& estimate = estimates.emplace_back(
+        ExperimentEstimate{.experiment = experiment.name, .run_s = experiment.run_s});
+    count(Phase::held_out, prediction_runs(experiment), estimate);
   }
   count_last_runs(problem, budget.verification_repeats, estimates);
   return estimates;
+}
+
+std::string foreseen(const std::vector<ExperimentEstimate>& estimates) {
+  constexpr double kPercent = 100;
+  PhaseWork all;
+  std::map<Phase, PhaseWork> phases;
+  for (const ExperimentEstimate& estimate : estimates) {
+    for (const auto& [phase, work] : estimate.phases) {
+      for (PhaseWork* sum : {&phases[phase], &all}) {
+        sum->runs += work.runs;
+        sum->seconds += work.seconds;
+      }
+    }
+  }
+  std::string parts;
+  for (const auto& [phase, work] : phases) {
+    if (work.runs == 0) continue;
+    parts += fmt::format("{}{} {} ({:.0f} %)", parts.empty() ? "" : ", ", name_of(phase), work.runs,
+                         kPercent * work.seconds / all.seconds);
+  }
+  return fmt::format("at most {} simulations, with their shares of the work: {}", all.runs, parts);
 }
 
 double last_runs_s(const Problem& problem, int repeats) {
@@ -146,17 +224,27 @@ std::vector<int> runs_for(const Problem& problem, double seconds) {
   const std::vector<double> needs = needs_of(experiments);
   double sum = 0;  // shared as rounds of the fit are, see first_round_jobs
   for (std::size_t e = 0; e < experiments.size(); ++e) {
-    sum += needs[e] * std::sqrt(experiments[e].run_s);
+    sum += needs[e] * std::sqrt(usual_run_s(experiments[e]));
   }
   std::vector<int> runs;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
-    const double bought = seconds * needs[e] / std::sqrt(experiments[e].run_s) / sum;
+    const double bought = seconds * needs[e] / std::sqrt(usual_run_s(experiments[e])) / sum;
     runs.push_back(static_cast<int>(std::min(bought, kMax)));
   }
   return runs;
 }
 
-double timed_run_s(const RunSpec& spec, std::uint64_t seed, double longest_s,
+std::optional<double> foreseen_s(const std::vector<WorkLook>& looks, double all_clump_steps) {
+  if (looks.empty() || !(looks.back().clump_steps > 0)) return std::nullopt;
+  const WorkLook& last = looks.back();
+  const auto middle = std::ranges::find_if(
+      looks, [&](const WorkLook& look) { return look.seconds >= last.seconds / 2; });
+  const WorkLook from = middle->clump_steps < last.clump_steps ? *middle : WorkLook{};
+  const double step_s = (last.seconds - from.seconds) / (last.clump_steps - from.clump_steps);
+  return last.seconds + step_s * std::max(0., all_clump_steps - last.clump_steps);
+}
+
+double timed_run_s(const RunSpec& spec, std::uint64_t seed, double run_s, double longest_s,
                    const std::atomic<bool>& is_interrupted) {
   const Clock::time_point start = Clock::now();
   const auto elapsed_s = [&] {
@@ -164,18 +252,28 @@ double timed_run_s(const RunSpec& spec, std::uint64_t seed, double longest_s,
   };
   std::mutex reporting;
   double fraction = 0;
-  const SimulateOptions options{.trajectory = {}, .report = [&](double done) {
-                                  const std::scoped_lock lock(reporting);
-                                  fraction = std::max(fraction, done);
-                                  return !is_interrupted &&
-                                         (fraction <= 0 || elapsed_s() < longest_s);
-                                }};
+  std::vector<WorkLook> looks;
+  const SimulateOptions options{.trajectory = {},
+                                .report =
+                                    [&](double done) {
+                                      const std::scoped_lock lock(reporting);
+                                      fraction = std::max(fraction, done);
+                                      return !is_interrupted &&
+                                             (fraction <= 0 || elapsed_s() < longest_s);
+                                    },
+                                .watch_work =
+                                    [&](double clump_steps) {
+                                      looks.push_back({elapsed_s(), clump_steps});
+                                    }};
   try {
     simulate_experiment(spec, seed, options);
     return elapsed_s();
   } catch (const dem::Interrupted&) {
     if (is_interrupted) throw;
-    return elapsed_s() / fraction;
+    const auto by_work = spec.entry().is_bulk
+                             ? foreseen_s(looks, run_s / dem::bulk_step_s(spec.model))
+                             : std::nullopt;
+    return by_work.value_or(elapsed_s() / fraction);
   }
 }
 

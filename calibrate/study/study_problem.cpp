@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -201,6 +203,11 @@ std::vector<FixedInput> fixed_inputs_of(const dem::Study& study, const dem::Clum
   return inputs;
 }
 
+std::optional<double> coarse_size(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
+                                  const dem::ClumpShape& grain) {
+  return entry.coarse_size == nullptr ? std::nullopt : entry.coarse_size(grain, protocol);
+}
+
 class StudyProblemBuilder {
  public:
   StudyProblemBuilder(const dem::Study& study, const dem::ClumpFile& grain)
@@ -331,9 +338,8 @@ class StudyProblemBuilder {
   std::optional<AssumedInputs> coarse_inputs(const dem::ExperimentEntry& entry,
                                              const dem::Protocol& protocol) const {
     constexpr double kDecimals = 100;  // to be told in full
-    if (!is_coarse_allowed_ || entry.coarse_size == nullptr) return std::nullopt;
-    const std::optional<double> size = entry.coarse_size(grain_.shape, protocol);
-    if (!size) return std::nullopt;
+    const auto size = coarse_size(entry, protocol, grain_.shape);
+    if (!is_coarse_allowed_ || !size) return std::nullopt;
     return AssumedInputs{.size = std::round(kDecimals * *size) / kDecimals};
   }
 
@@ -344,16 +350,17 @@ class StudyProblemBuilder {
 
   /// A study of many grains costs more than a budget is made for.
   void allow_a_fit() {
-    constexpr double kMinute_s = 60;
-    constexpr double kMinFit = 1.6;  // first rounds: one, and for the later ones over half of it
     const Cost least = minimum_cost(made_.problem);
     FitSettings& settings = made_.problem.settings;
-    const double enough_s = kMinFit * least.seconds;
+    const double enough_s = least_budget_s(made_.problem);
     if (settings.budget_s >= enough_s) return;
+    // Minutes would be those of the core that cost_s is of, not of this machine.
     made_.notes.push_back(fmt::format(
-        "runs of this study take long: the budget is raised from {:.0f} to {:.0f} minutes of one "
-        "core, the least that a fit takes. Fix, to be faster: fewer grains or softer ones.",
-        settings.budget_s / kMinute_s, std::ceil(enough_s / kMinute_s)));
+        "runs of this study take long: the budget is raised to {:.1f} times as much, the least "
+        "that a fit takes: {} simulations in its first round, and over half of their work in later "
+        "ones. repose calibrate --dry-run says how long all of it takes here. Fix, to be faster: "
+        "fewer grains or softer ones.",
+        enough_s / settings.budget_s, least.jobs));
     settings.budget_s = enough_s;
   }
 
@@ -496,6 +503,24 @@ std::vector<base::Fault> impossible_readings(const dem::Study& study,
   return errors;
 }
 
+std::string name_of_minutes(double minutes) { return fmt::format("{:g}min", minutes); }
+
+std::optional<double> minutes_in(const std::string& budget) {
+  constexpr std::string_view kUnit = "min";
+  if (!budget.ends_with(kUnit)) return std::nullopt;
+  const std::string digits = budget.substr(0, budget.size() - kUnit.size());
+  char* end = nullptr;
+  const double minutes = std::strtod(digits.c_str(), &end);
+  if (digits.empty() || *end != '\0' || !(minutes > 0)) return std::nullopt;
+  return minutes;
+}
+
+bool has_coarse_runs(const dem::Study& study, const dem::ClumpShape& grain) {
+  return std::ranges::any_of(study.experiments, [&](const auto& described) {
+    return coarse_size(*described.first, described.second.protocol, grain).has_value();
+  });
+}
+
 Budget budget_named(const std::string& name) {
   constexpr double kMinute_s = 60;
   if (name == "quick") {
@@ -535,7 +560,7 @@ Budget with_affordable_checks(Budget budget, const Problem& problem) {
   for (const Experiment& experiment : measured_experiments(problem)) {
     if (experiment.coarse) dearest_s = std::max(dearest_s, experiment.run_s);
   }
-  if (dearest_s == 0) return budget;
+  if (dearest_s == 0 || budget.minutes) return budget;
   const double affordable = kChecks * problem.settings.budget_s / dearest_s;
   if (affordable >= budget.verification_repeats) return budget;
   budget.verification_repeats = std::max(kFewest, static_cast<int>(affordable));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct Budget {
   int verification_repeats = 3;  ///< in the last check, which the verdicts are made of
   int family_sets = 2;           ///< sets of the equivalence family that are checked
   bool is_full = false;          ///< every run is of the study's own grains, and none is coarse
+  /// All of it is to end within so many minutes, as foreseen before it began (minutes_budget.h).
+  std::optional<double> minutes = {};
 };
 
 /// "quick", "standard" or "paper". Throws base::InputError for another name.
@@ -27,8 +30,12 @@ Budget budget_named(const std::string& name);
 
 /// The same with no more checks than the budget has time for, where full runs of an experiment cost
 /// so much that it has coarse ones: the last check is of four repeats at least, those before it of
-/// two, and of equally good sets none. Others as they are.
+/// two, and of equally good sets none. Others as they are, and those of minutes, which have theirs.
 Budget with_affordable_checks(Budget budget, const Problem& problem);
+
+/// "20min", the name of a budget of so many minutes, and back: none for another name.
+std::string name_of_minutes(double minutes);
+std::optional<double> minutes_in(const std::string& budget);
 
 /// A coefficient with bounds, as the fit seeks it.
 Parameter sought_parameter(const std::string& name, const dem::Coefficient& coefficient);
@@ -37,6 +44,9 @@ Parameter sought_parameter(const std::string& name, const dem::Coefficient& coef
 /// films and sheets are measured by ours.
 bool is_definition_assumed(const dem::ExperimentEntry& entry,
                            const dem::StudyExperiment& described);
+
+/// Whether a study has experiments of which larger grains make cheaper runs.
+bool has_coarse_runs(const dem::Study& study, const dem::ClumpShape& grain);
 
 /// What a study leaves to be found, what it measured, and what of that can be used.
 struct StudyProblem {

@@ -110,12 +110,40 @@ std::vector<FilmReading> films_in(const Json& json) {
   return films;
 }
 
+/// What its name does not say.
+Json limits_json(const Budget& budget) {
+  return {{"minutes", *budget.minutes},
+          {"core_s", budget.settings.budget_s},
+          {"max_jobs", budget.settings.max_jobs},
+          {"max_rounds", budget.settings.max_rounds},
+          {"round_repeats", budget.round_repeats},
+          {"verification_repeats", budget.verification_repeats},
+          {"family_sets", budget.family_sets}};
+}
+
+std::optional<Budget> limits_in(const Json& json) {
+  if (!json.contains("limits")) return std::nullopt;
+  const Json& limits = json.at("limits");
+  return Budget{.name = json.at("name"),
+                .description = json.at("description"),
+                .settings = {.budget_s = limits.at("core_s"),
+                             .max_jobs = limits.at("max_jobs"),
+                             .max_rounds = limits.at("max_rounds")},
+                .round_repeats = limits.at("round_repeats"),
+                .verification_repeats = limits.at("verification_repeats"),
+                .family_sets = limits.at("family_sets"),
+                .minutes = limits.at("minutes").get<double>()};
+}
+
 Json notes_json(const StudyNotes& notes) {
   const StudyIdentity& study = notes.study;
+  Json budget = {{"name", study.budget}, {"description", study.budget_description}};
+  if (notes.limits) budget["limits"] = limits_json(*notes.limits);
+  if (study.is_mixed) budget["mixed"] = true;
   return {{"program", study.program},
           {"study", {{"file", study.file}, {"hash", study.hash}, {"settings", study.settings}}},
           {"method", study.method},
-          {"budget", {{"name", study.budget}, {"description", study.budget_description}}},
+          {"budget", budget},
           {"pictures", pictures_json(notes.measurement.pictures)},
           {"sheets", sheets_json(notes.measurement.sheets)},
           {"films", films_json(notes.measurement.films)},
@@ -131,19 +159,21 @@ StudyNotes notes_in(const Json& json) {
                     .settings = study.at("settings"),
                     .method = json.at("method"),
                     .budget = budget.at("name"),
-                    .budget_description = budget.at("description")},
+                    .budget_description = budget.at("description"),
+                    .is_mixed = budget.value("mixed", false)},  // earlier versions: none was
           // Earlier versions had no sheets, nor films.
           .measurement = {.sheets = sheets_in(json.value("sheets", Json::array())),
                           .pictures = pictures_in(json.at("pictures")),
                           .films = films_in(json.value("films", Json::array()))},
-          .fingerprints = json.value("files", std::map<std::string, std::string>())};
+          .fingerprints = json.value("files", std::map<std::string, std::string>()),
+          .limits = limits_in(budget)};
 }
 
 }  // namespace
 
 bool is_same_study(const StudyIdentity& one, const StudyIdentity& other) {
   return one.hash == other.hash && one.settings == other.settings && one.method == other.method &&
-         one.budget == other.budget;
+         one.budget == other.budget && one.is_mixed == other.is_mixed;
 }
 
 StudyIdentity identity_of(const StudyRecord& record) {
@@ -153,7 +183,9 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .settings = record.settings,
           .method = record.method,
           .budget = record.budget.name,
-          .budget_description = record.budget.description};
+          .budget_description = record.budget.description,
+          .is_mixed = record.method == "joint" && !record.budget.is_full &&
+                      has_coarse_runs(record.study, record.grain.shape)};
 }
 
 namespace {
@@ -190,10 +222,13 @@ void write_study_files(const fs::path& folder, StudyNotes notes,
 }
 
 void write_study_record(const fs::path& folder, const StudyRecord& record) {
-  write_study_files(
-      folder, {.study = identity_of(record), .measurement = record.measurement, .fingerprints = {}},
-      {{kStudyCopy, base::read_whole_file(record.study.file)},
-       {kClumpCopy, dem::clump_json(record.grain)}});
+  write_study_files(folder,
+                    {.study = identity_of(record),
+                     .measurement = record.measurement,
+                     .fingerprints = {},
+                     .limits = record.budget.minutes ? std::optional(record.budget) : std::nullopt},
+                    {{kStudyCopy, base::read_whole_file(record.study.file)},
+                     {kClumpCopy, dem::clump_json(record.grain)}});
 }
 
 std::optional<StudyNotes> read_study_notes(const fs::path& folder) {
@@ -223,7 +258,8 @@ StudyRecord read_study_record(const fs::path& folder) {
   StudyRecord record;
   record.settings = notes->study.settings;
   record.method = notes->study.method;
-  record.budget = budget_named(notes->study.budget);
+  record.budget = notes->limits ? *notes->limits : budget_named(notes->study.budget);
+  record.budget.is_full = !notes->study.is_mixed;
   record.measurement = notes->measurement;
   record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));
   record.study =

@@ -33,9 +33,11 @@ struct StudyIdentity {
   std::string method;                 ///< "joint" or "paper"
   std::string budget;
   std::string budget_description;
+  bool is_mixed = false;  ///< some of its runs are coarse ones
 };
 
-/// The same study, settings, method and budget, whichever version of the program wrote it.
+/// The same study, settings, method, budget and kinds of runs, whichever version of the program
+/// wrote it.
 bool is_same_study(const StudyIdentity& one, const StudyIdentity& other);
 
 /// What FOLDER/study.json holds.
@@ -44,6 +46,8 @@ struct StudyNotes {
   Measurement measurement;
   /// Of study.toml and clump.json, by name; those of earlier versions have none.
   std::map<std::string, std::string> fingerprints;
+  /// What a budget of minutes was found to allow; none of one that its name says all of.
+  std::optional<Budget> limits = {};
 };
 
 /// What a study folder is about: enough to know, from the folder alone, what was sought, of what,

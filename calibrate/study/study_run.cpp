@@ -54,9 +54,10 @@ bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
   const int most = problem.settings.max_rounds + (has_followers(problem) ? 1 : 0);
   double left_s = 0, checks_s = 0;
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
-    left_s += estimate.fit_runs * estimate.run_s;
-    checks_s += estimate.check_runs * estimate.run_s;
-    checks_s += estimate.varied_s;
+    const double fit_s =
+        estimate.of(Phase::first_round).seconds + estimate.of(Phase::later_rounds).seconds;
+    left_s += fit_s;
+    checks_s += estimate.all().seconds - fit_s;
   }
   for (int round = 1;; ++round) {
     const auto [complete, jobs] = reconstruct_rounds(problem, runs);
@@ -398,6 +399,37 @@ void note_checks(StudyOutcome& outcome) {
   note_last_step(outcome);
 }
 
+/// All that is simulated and fitted; false when interrupted.
+bool run_to_the_end(const Problem& problem, const Budget& budget, const StudyContext& context,
+                    JobRunner& runner, StudyOutcome& outcome) {
+  std::vector<std::vector<double>> tried;
+  try {
+    const FitWatch watch(context.is_interrupted);
+    if (!run_rounds(problem, budget, runner, outcome.runs)) return false;
+    if (!simulate_equivalent_sets(problem, budget, runner, tried, outcome)) return false;
+    if (!fit_and_check(problem, budget, runner, tried, outcome)) return false;
+    judge_family(problem, outcome);
+    outcome.assumed_scatters = assumed_scatters(problem, outcome.runs, outcome.fit);
+    if (!predict(problem, runner, outcome)) return false;
+    if (!check_stiffness(problem, budget, runner, outcome)) return false;
+    if (!refine(problem, budget, context.simulator, runner, outcome)) return false;
+    return vary_inputs(problem, runner, outcome);
+  } catch (const FitInterrupted&) {
+    return false;
+  }
+}
+
+/// Hands over what the complete rounds say, which takes as long as a fit.
+void leave(const Problem& problem, const StudyContext& context, const JobRunner& runner,
+           const std::vector<Run>& runs) {
+  if (!context.leave || runs.empty()) return;
+  try {
+    context.leave({.stage = runner.stage(), .fit = fit_jointly(problem, runs), .runs = runs});
+  } catch (const base::InputError&) {
+    // Too few runs have a reading: nothing is known yet.
+  }
+}
+
 }  // namespace
 
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& asked,
@@ -405,19 +437,8 @@ std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& aske
   const Budget budget = with_affordable_checks(asked, problem);
   JobRunner runner(problem, context);
   StudyOutcome outcome;
-  std::vector<std::vector<double>> tried;
-  try {
-    const FitWatch watch(context.is_interrupted);
-    if (!run_rounds(problem, budget, runner, outcome.runs)) return std::nullopt;
-    if (!simulate_equivalent_sets(problem, budget, runner, tried, outcome)) return std::nullopt;
-    if (!fit_and_check(problem, budget, runner, tried, outcome)) return std::nullopt;
-    judge_family(problem, outcome);
-    outcome.assumed_scatters = assumed_scatters(problem, outcome.runs, outcome.fit);
-    if (!predict(problem, runner, outcome)) return std::nullopt;
-    if (!check_stiffness(problem, budget, runner, outcome)) return std::nullopt;
-    if (!refine(problem, budget, context.simulator, runner, outcome)) return std::nullopt;
-    if (!vary_inputs(problem, runner, outcome)) return std::nullopt;
-  } catch (const FitInterrupted&) {
+  if (!run_to_the_end(problem, budget, context, runner, outcome)) {
+    leave(problem, context, runner, outcome.runs);
     return std::nullopt;
   }
   note_checks(outcome);

@@ -61,7 +61,8 @@ struct StudyOutcome {
 };
 
 /// Runs a study to its end, going on from what the folder holds. The outcome does not depend on how
-/// often it was interrupted, nor on the executor. None when it was interrupted.
+/// often it was interrupted, nor on the executor. None when it was interrupted, which leaves what
+/// is known to StudyContext::leave.
 /// @throws base::InputError  a protocol that cannot be run, a folder that cannot be written,
 /// or too few runs with a reading for a fit.
 std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,

@@ -42,11 +42,27 @@ void StudyProgressLine::report(const calibrate::StudyProgress& progress) {
 }
 
 StudyMessages::StudyMessages(const CalibratePlan& plan)
-    : file_(plan.progress_file, plan.problem.problem.parameters) {}
+    : parameters_(plan.problem.problem.parameters), file_(plan.progress_file, parameters_) {}
+
+/// Of the last round that is complete, once.
+void StudyMessages::tell_round(const calibrate::StudyProgress& progress) {
+  if (progress.rounds.size() <= rounds_told_) return;
+  rounds_told_ = progress.rounds.size();
+  const calibrate::RoundSummary& round = progress.rounds.back();
+  std::string values;
+  for (std::size_t k = 0; k < parameters_.size() && k < round.intervals.size(); ++k) {
+    values += fmt::format("{}{} {:.3g} ({:.3g} to {:.3g})", values.empty() ? "" : ", ",
+                          short_name(parameters_[k].name), round.values[k], round.intervals[k].low,
+                          round.intervals[k].high);
+  }
+  line_.reset();
+  print_line(fmt::format("after round {}, provisional (95 %): {}", rounds_told_, values));
+}
 
 calibrate::StudyWatch StudyMessages::watch(const std::atomic<bool>& is_interrupted) {
   return {.report =
               [this](const calibrate::StudyProgress& progress) {
+                tell_round(progress);
                 if (!line_) line_.emplace();
                 line_->report(progress);
                 file_.report(progress);
@@ -70,15 +86,37 @@ std::string table_of(const CalibratePlan& plan, const calibrate::StudyResult& re
                      columns_of(stdout));
 }
 
+/// What an interrupted study left in its folder; none where nothing is known yet.
+std::optional<calibrate::StudyResult> provisional_in(const CalibratePlan& plan) {
+  try {
+    auto left = calibrate::read_result(plan.folder);
+    if (left && is_provisional(*left) &&
+        is_same_study(left->provenance.study, identity_of(plan.record))) {
+      return left;
+    }
+  } catch (const base::InputError&) {
+    // A damaged one is none.
+  }
+  return std::nullopt;
+}
+
+ExitCode finish_interrupted(const CalibratePlan& plan) {
+  const auto provisional = provisional_in(plan);
+  print_line(
+      fmt::format("interrupted; {}. The same command resumes from here: the simulations are in {}.",
+                  provisional ? "the result is provisional" : "no result was written",
+                  (plan.folder / "runs").string()));
+  if (!provisional) return ExitCode::interrupted;
+  Outputs outputs;
+  outputs.add(plan.json_file, to_json(*provisional));
+  outputs.show(table_of(plan, *provisional));
+  outputs.write();
+  return ExitCode::interrupted;
+}
+
 /// Writes and shows what was found, or says that it was interrupted.
 ExitCode finish(const CalibratePlan& plan, const std::optional<calibrate::StudyResult>& result) {
-  if (!result) {
-    print_line(
-        fmt::format("interrupted; no result was written. The same command resumes from here: the "
-                    "simulations are in {}.",
-                    (plan.folder / "runs").string()));
-    return ExitCode::interrupted;
-  }
+  if (!result) return finish_interrupted(plan);
   const std::string json = to_json(*result);
   Outputs outputs;
   outputs.add((plan.folder / calibrate::kResultFile).string(), json);
@@ -130,6 +168,22 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 
 }  // namespace
 
+namespace {
+
+/// Simulated here.
+ExitCode run_here(const CalibrateArguments& arguments) {
+  const CalibratePlan plan = plan_calibrate(arguments);
+  print_lines(plan.errors);
+  if (!plan.errors.empty()) return ExitCode::bad_input;
+  print_lines(plan.notes);
+  if (arguments.is_dry_run) return run_dry(plan);
+  return finish(plan, with_messages(plan, [&](const calibrate::StudyWatch& watch) {
+                  return fit_study(plan, watch);
+                }));
+}
+
+}  // namespace
+
 ExitCode run_calibrate(const CalibrateArguments& arguments) {
   if (has_engine(arguments)) return run_calibrate_engine(arguments);
   if (!arguments.runs.empty()) return run_calibrate_runs(arguments);
@@ -156,14 +210,12 @@ ExitCode run_calibrate(const CalibrateArguments& arguments) {
          "process with --jobs."});
     return ExitCode::bad_input;
   }
-  const CalibratePlan plan = plan_calibrate(arguments);
-  print_lines(plan.errors);
-  if (!plan.errors.empty()) return ExitCode::bad_input;
-  print_lines(plan.notes);
-  if (arguments.is_dry_run) return run_dry(plan);
-  return finish(plan, with_messages(plan, [&](const calibrate::StudyWatch& watch) {
-                  return fit_study(plan, watch);
-                }));
+  try {
+    return run_here(arguments);
+  } catch (const dem::Interrupted&) {
+    print_line("interrupted while it was timed; nothing was saved.");
+    return ExitCode::interrupted;
+  }
 }
 
 }  // namespace repose::cli

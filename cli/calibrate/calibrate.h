@@ -1,8 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calibrate/run/progress_file.h"
 #include "calibrate/run/run_study.h"
@@ -33,8 +35,12 @@ class StudyMessages {
   calibrate::StudyWatch watch(const std::atomic<bool>& is_interrupted);
 
  private:
+  void tell_round(const calibrate::StudyProgress& progress);
+
+  const std::vector<calibrate::Parameter> parameters_;
   calibrate::ProgressFile file_;
   std::optional<StudyProgressLine> line_;
+  std::size_t rounds_told_ = 0;
 };
 
 /// Carries out `repose calibrate`.

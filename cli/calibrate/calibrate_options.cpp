@@ -2,11 +2,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/input_error.h"
 #include "calibrate/bench/read_bench.h"
+#include "calibrate/run/minutes_budget.h"
+#include "calibrate/study/executor.h"
 #include "calibrate/study/study_record.h"
 #include "cli/calibrate/calibrate.h"
 #include "cli/common/option_value.h"
@@ -98,6 +101,12 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   plan.progress_file = arguments.progress_file;
   plan.record.method = arguments.method;
   attempt(plan.errors, [&] { plan.record.budget = calibrate::budget_named(arguments.budget); });
+  plan.record.budget.is_full = arguments.fidelity == "full";
+  if (!plan.record.budget.is_full && arguments.fidelity != "mixed") {
+    plan.errors.push_back(
+        fmt::format("--fidelity = {}: must be mixed or full. Fix: leave it out for mixed.",
+                    arguments.fidelity));
+  }
   const bool is_read = attempt(plan.errors, [&] {
     plan.record.study = dem::read_study(arguments.study, arguments.settings);
   });
@@ -117,12 +126,60 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   return plan;
 }
 
+namespace {
+
+/// None: no --minutes were given, or they cannot be kept, which the errors say.
+std::optional<double> minutes_of(const CalibrateArguments& arguments, CalibratePlan& plan) {
+  constexpr double kMin_minutes = .1, kMax_minutes = 1e5;
+  if (arguments.minutes.empty()) return std::nullopt;
+  const auto refuse = [&](bool is_wrong, const std::string& why) {
+    if (is_wrong)
+      plan.errors.push_back(fmt::format("--minutes: {}. Fix: leave one of them out.", why));
+  };
+  refuse(arguments.budget != CalibrateArguments().budget,
+         "says all of what the study may cost, and so does --budget");
+  refuse(arguments.method != "joint",
+         fmt::format("is of the joint method; --method {} always makes the same simulations",
+                     arguments.method));
+  refuse(calibrate::is_launched_as_rank(),
+         "is timed on this machine alone, and mpirun has several processes");
+  if (!plan.record.study.engine.is_own()) {
+    plan.errors.push_back(
+        fmt::format("--minutes: is timed with our own engine, not with [engine] program = \"{}\". "
+                    "Fix: --budget.",
+                    plan.record.study.engine.program));
+  }
+  return read_number_within({"--minutes", arguments.minutes, plan.errors}, kMin_minutes,
+                            kMax_minutes, "leave it out for --budget quick");
+}
+
+calibrate::Budget budget_of(double minutes, const CalibratePlan& plan) {
+  std::optional<Progress> progress;
+  return calibrate::budget_of_minutes(minutes, plan, watch_for_interrupt(),
+                                      [&](std::size_t done, std::size_t of) {
+                                        if (!progress) progress.emplace(of, "timed");
+                                        if (done > 0) progress->advance();
+                                      });
+}
+
+}  // namespace
+
 CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
   CalibratePlan plan = read_bench(arguments, calibrate::NoRows::refused);
   check_method(arguments, plan);
+  const std::optional<double> minutes = minutes_of(arguments, plan);
   if (!plan.errors.empty()) return plan;
   attempt(plan.errors, [&] {
-    plan.problem = calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);
+    const auto make_problem = [&] {
+      plan.problem =
+          calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);
+    };
+    make_problem();
+    if (!minutes) return;
+    const bool is_full = plan.record.budget.is_full;
+    plan.record.budget = budget_of(*minutes, plan);
+    plan.record.budget.is_full = is_full;
+    make_problem();
   });
   plan.notes.insert(plan.notes.end(), plan.problem.notes.begin(), plan.problem.notes.end());
   return plan;
@@ -147,14 +204,22 @@ Methods:
   joint     all unknowns fitted to all measurements at once, with intervals
   paper     a published calibration procedure: point estimates, for comparison
 
+--minutes N takes as many simulations as are foreseen to end within N minutes on
+the cores used, checks and all, or says how many minutes the least fit takes. It
+is timed once, at the beginning: resumed, the study goes on by the same plan.
+
 Budgets:
   quick     14 minutes on one core for the fit
   standard  125 minutes on one core for the fit
-  paper     at most 62 simulations, the number of a published calibration
-The minutes are estimates for heaps of a few hundred grains; verification is
-extra. --dry-run times one run of each experiment, for at most 20 seconds each,
-and reports what each budget would simulate and how long it takes. It needs the
-bench readings, and saves nothing.
+  paper     at most 62 simulations for the fit, as a published calibration
+The minutes are estimates for heaps of a few hundred grains; checks are extra.
+--dry-run times one run of each experiment, for at most 20 seconds each, and
+reports how many simulations each budget takes for what, and how long that is.
+It needs the bench readings, and saves nothing.
+
+Of heaps of many small grains, most runs are of fewer, larger ones in the same
+tube, off by what runs of the study's own beside them tell; the checks are of the
+study's own. --fidelity full makes no others.
 
 --rolling-models constant_torque,elastic_plastic calibrates the study with each
 of them, in folders of their own, and says which one explains the bench readings
@@ -173,6 +238,7 @@ take if any was made. docs/engines.md describes what the command is given.
 Examples:
   repose calibrate study.toml --dry-run
   repose calibrate study.toml
+  repose calibrate study.toml --minutes 20
   repose calibrate study.toml --rolling-models constant_torque,elastic_plastic
   repose calibrate study.toml --budget standard --jobs 8 --out hazelnut
   repose calibrate table.toml --runs runs.csv
@@ -189,6 +255,9 @@ Command calibrate_command() {
       .options =
           {{"study", "STUDY.toml", "Study file", &given->study, true},
            {"--budget", "quick|standard|paper", "Limit on the simulations (quick)", &given->budget},
+           {"--minutes", "N", "All of it within N minutes, in place of --budget", &given->minutes},
+           {"--fidelity", "mixed|full", "Whether larger grains may make cheaper runs (mixed)",
+            &given->fidelity},
            {"--method", "joint|paper", "Method of calibration (joint)", &given->method},
            {"--rolling-models", "A,B", "Fit the study with each, and compare them",
             &given->rolling_models},

@@ -12,8 +12,10 @@
 namespace repose::cli {
 
 /// Its options by the fields that the library finds fault with.
-inline constexpr std::array<base::FieldName, 4> kCalibrateFields{
+inline constexpr std::array<base::FieldName, 6> kCalibrateFields{
     {{"budget", "--budget"},
+     {"minutes", "--minutes"},
+     {"fidelity", "--fidelity"},
      {"setting", "--set"},
      {"the joint method", "--method joint"},
      {"max_runs", "--max-runs"}}};
@@ -24,6 +26,8 @@ struct CalibrateArguments {
   std::vector<std::string> settings;
   std::string method = "joint";
   std::string budget = "quick";
+  std::string minutes = {};  ///< in place of a budget
+  std::string fidelity = "mixed";
   std::string rolling_models;
   std::vector<std::string> runs = {};  ///< tables of another program's; empty: simulated here
   std::string max_runs = {};           ///< of a study with [engine]
@@ -46,6 +50,7 @@ struct CalibratePlan : calibrate::PreparedStudy {
 /// plan but its problem.
 CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows no_rows);
 
+/// @throws dem::Interrupted  while it was timed what --minutes allow for
 CalibratePlan plan_calibrate(const CalibrateArguments& arguments);
 
 Command calibrate_command();

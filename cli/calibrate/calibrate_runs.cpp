@@ -27,6 +27,8 @@ void refuse_simulations(const CalibrateArguments& arguments, const char* what,
                     option, what));
   };
   refuse(arguments.budget != usual.budget, "--budget");
+  refuse(!arguments.minutes.empty(), "--minutes");
+  refuse(arguments.fidelity != usual.fidelity, "--fidelity");
   refuse(arguments.method != usual.method, "--method");
   refuse(!arguments.rolling_models.empty(), "--rolling-models");
   refuse(!arguments.progress_file.empty(), "--progress");

@@ -63,6 +63,10 @@ void check(const CalibrateArguments& arguments, std::vector<std::string>& errors
         "--rolling-models: takes as long as each model alone, added up. Fix: leave it out of "
         "--dry-run.");
   }
+  if (!arguments.minutes.empty()) {
+    errors.emplace_back(
+        "--rolling-models: is several calibrations, and --minutes is of one. Fix: --budget.");
+  }
   if (!arguments.progress_file.empty()) {
     errors.emplace_back(
         "--rolling-models: is several calibrations, and --progress is of one. Fix: leave one of "

@@ -63,6 +63,10 @@ StudyExport export_of(const fs::path& folder, const calibrate::ExportRequest& re
     base::refuse(folder, "contains no result.json: the study is unfinished",
                  "run the same repose calibrate command again; it resumes.");
   }
+  if (is_provisional(*result)) {
+    base::refuse(folder, "its result is provisional: the study was interrupted",
+                 "run the same repose calibrate command again; it resumes.");
+  }
   sets = calibrate::exported_sets(*result);
   StudyExport made =
       calibrate::export_study(record.study, record.grain.shape, calibrate::fitted_values(*result),

@@ -29,6 +29,7 @@ struct PlanOptions {
   CalibratePlan study;  ///< but its problem
   calibrate::OfferedStudy offered;
   int readings = calibrate::kUsualReadings;
+  double core_s = 0;
 };
 
 /// All, or those typed.
@@ -78,7 +79,8 @@ PlanOptions options_of(const PlanArguments& arguments) {
   const auto minutes = read_number_within({"--minutes", arguments.minutes, errors}, kMin_minutes,
                                           kMax_minutes, "leave it out for 15");
   const std::set<dem::Experiment> possible = possible_experiments(arguments.experiments, errors);
-  if (errors.empty()) offer(kMinute_s * minutes.value_or(kUsual_minutes), possible, options);
+  options.core_s = kMinute_s * minutes.value_or(kUsual_minutes);
+  if (errors.empty()) offer(options.core_s, possible, options);
   return options;
 }
 
@@ -102,6 +104,7 @@ ExitCode run_plan(const PlanArguments& arguments) {
   print_lines(options.study.errors);
   if (!options.study.errors.empty()) return ExitCode::bad_input;
   print_lines(options.study.notes);
+  print_line(foreseen(options.offered, options.core_s));
   const calibrate::RunStore folder(options.study.folder);
   const base::FolderLock lock(options.study.folder, calibrate::lock_file_in(options.study.folder));
   const std::optional<calibrate::Plan> plan = plan_of(options, folder);

@@ -47,8 +47,6 @@ inline constexpr std::string_view kGrainRolling = "contact.particle_particle.rol
 /// An impact of a grain on a wall or on another one: its steps are so few, whatever the stiffness,
 /// that making it ready takes longest.
 inline constexpr double kImpact_s = 3e-3;
-/// A step of a grain among others.
-double bulk_step_s(const Model& model);
 /// A step of some grains that are bonded, which touch walls alone or glued grains.
 double step_on_wall_s(const Model& model, int bonded);
 double step_on_grains_s(const Model& model, int bonded);

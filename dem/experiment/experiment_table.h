@@ -224,6 +224,10 @@ Range readable_in(std::string_view unit);
 /// Whether a coefficient of the study moves the experiment's readings.
 bool depends_on(const ExperimentEntry& entry, std::string_view coefficient);
 
+/// A step of a grain of a bulk takes about so long, s, on the core that cost_s is of: with it, a
+/// bulk's cost_s says how many grain steps there are to do.
+double bulk_step_s(const Model& model);
+
 /// Grains touch each other in it: it needs the coefficients between them.
 bool has_grain_contacts(Experiment experiment);
 

@@ -17,6 +17,7 @@
 #include "base/input_error.h"
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/study/executor.h"
+#include "calibrate/study/study_estimate.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/experiment/drop.h"
 #include "dem/experiment/experiment_table.h"
@@ -601,6 +602,37 @@ TEST_F(StudyRun, AReadingThatCannotBeCountsAsAFailedRunAndIsNamed) {
 TEST_F(StudyRun, AFolderThatCannotBeMadeIsRefused) {
   folder_.write("file", std::string("x"));
   EXPECT_THROW(RunStore(folder_.path() / "file"), base::InputError);
+}
+
+TEST_F(StudyRun, ForeseesARunFromItsLaterPace) {
+  // 100 steps a second at the beginning, 10 later on.
+  const std::vector<WorkLook> looks = {{1, 100}, {2, 110}, {3, 120}, {4, 130}};
+  EXPECT_NEAR(foreseen_s(looks, 230).value(), 4 + 10, 1e-9);
+  EXPECT_NEAR(foreseen_s(looks, 100).value(), 4, 1e-9) << "no less than it has taken";
+  EXPECT_NEAR(foreseen_s({{2, 100}}, 200).value(), 4, 1e-9);
+  EXPECT_FALSE(foreseen_s({}, 100));
+}
+
+TEST_F(StudyRun, BudgetsSayWhatEveryPhaseTakes) {
+  const dem::Study study = read();
+  const Budget budget = budget_named("paper");
+  const Problem problem = problem_of(study, grain_of(study), budget).problem;
+  int fit = 0;
+  std::map<Phase, int> runs;
+  for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
+    fit += estimate.fit_runs();
+    for (const auto& [phase, work] : estimate.phases) {
+      runs[phase] += work.runs;
+      EXPECT_GE(work.seconds, 0);
+    }
+  }
+  EXPECT_LE(fit, 62);
+  EXPECT_GT(runs[Phase::first_round], 0);
+  EXPECT_GT(runs[Phase::checks], 0);
+  EXPECT_EQ(runs[Phase::held_out], 0);
+  EXPECT_THAT(foreseen(estimate_of(problem, budget)),
+              AllOf(HasSubstr("first round " + std::to_string(runs[Phase::first_round])),
+                    HasSubstr("checks " + std::to_string(runs[Phase::checks]))));
 }
 
 }  // namespace

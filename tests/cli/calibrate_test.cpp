@@ -144,10 +144,17 @@ TEST_F(Calibrate, ShowsWhatStifferGrainsChange) {
       << "restitution does not depend on stiffness";
   EXPECT_THAT(done.out, HasSubstr("coefficient with stiffer grains"));
   EXPECT_EQ(result["stiffer_coefficients"].size(), result["parameters"].size());
-  const Finished dry = run({"study.toml", "--dry-run"});
-  const Finished soft = run({"study.toml", "--set", softened, "--dry-run"});
-  EXPECT_NE(dry.out.substr(dry.out.find("drop"), 30), soft.out.substr(soft.out.find("drop"), 30))
-      << "stiffer grains are among the simulations that it counts";
+  const auto stiffer_runs = [&](const Words& words) {
+    const json times = json::parse(run(words).out);
+    for (const json& phase : times["budgets"][0]["phases"]) {
+      if (phase["phase"] == "stiffer grains") return phase["runs"].get<int>();
+    }
+    return -1;
+  };
+  EXPECT_EQ(stiffer_runs({"study.toml", "--dry-run", "--json", "-"}), 0);
+  EXPECT_EQ(stiffer_runs({"study.toml", "--set", softened, "--dry-run", "--json", "-"}), 24)
+      << "they are among the simulations that it counts";
+  EXPECT_THAT(done.err, HasSubstr("stiffer grains 24 (")) << "and that are announced";
 }
 
 TEST_F(Calibrate, ShowsWhatMoreSpheresChange) {
@@ -221,9 +228,9 @@ TEST_F(Calibrate, TellsBeforehandWhatEachBudgetWouldDo) {
   // No fit makes more simulations than was told.
   const auto quick = [&](const std::string& experiment) {
     std::istringstream row(done.out.substr(done.out.find("\n" + experiment + ' ')));
-    std::string name, plus;
+    std::string name, run, unit, plus;
     int fit = 0, checks = 0;
-    row >> name >> fit >> plus >> checks;
+    row >> name >> run >> unit >> fit >> plus >> checks;
     return std::pair{fit, checks};
   };
   const auto [drops, drop_checks] = quick("drop");
@@ -249,7 +256,61 @@ TEST_F(Calibrate, ADryRunTellsProgramsWhatItTellsPeople) {
   EXPECT_GT(times["budgets"][1]["seconds"], times["budgets"][0]["seconds"]);
   EXPECT_EQ(times["budgets"][0]["experiments"][0]["experiment"], "drop");
   EXPECT_GT(times["hour"][1]["runs"], 0);
+  EXPECT_GT(times["runs"][1]["seconds"], 0);
+  for (const json& budget : times["budgets"]) {
+    double seconds = 0;
+    int runs = 0, of_experiments = 0;
+    for (const json& phase : budget["phases"]) {
+      seconds += phase["seconds"].get<double>();
+      runs += phase["runs"].get<int>();
+    }
+    for (const json& one : budget["experiments"]) {
+      of_experiments += one["fit_runs"].get<int>() + one["check_runs"].get<int>();
+    }
+    EXPECT_NEAR(seconds, budget["seconds"], 1e-9);
+    EXPECT_EQ(runs, of_experiments);
+  }
+  const Finished paper = run({"study.toml", "--dry-run", "--budget", "paper", "--json", "-"});
+  const json asked = json::parse(paper.out)["budgets"][0];
+  EXPECT_EQ(asked["budget"], "paper") << "the budget asked for is among them";
   EXPECT_EQ(files_in("study_calibration/runs"), 0U);
+}
+
+TEST_F(Calibrate, TakesTheMinutesItIsGivenAndResumesByTheSamePlan) {
+  const Finished done = run({"study.toml", "--minutes", "1"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.err, HasSubstr("with their shares of the work: first round"));
+  const json notes = json::parse(text("study_calibration/study.json"));
+  EXPECT_EQ(notes["budget"]["limits"]["minutes"], 1);
+  const std::string first = text("study_calibration/result.json");
+  EXPECT_EQ(json::parse(first)["provenance"]["budget"]["name"], "1min");
+  ASSERT_EQ(run({"study.toml", "--minutes", "1"}).exit_code, 0);
+  EXPECT_EQ(text("study_calibration/result.json"), first);
+
+  const Finished short_of_time = run({"study.toml", "--minutes", "0.1", "--out", "short"});
+  EXPECT_EQ(short_of_time.exit_code, 2);
+  EXPECT_THAT(short_of_time.err, AllOf(HasSubstr("(--minutes) = 0.1"), HasSubstr("the least fit"),
+                                       HasSubstr("Fix: ")));
+  for (const Words& others : {Words{"--budget", "standard"}, Words{"--method", "paper"}}) {
+    Words words = {"study.toml", "--minutes", "1"};
+    words.insert(words.end(), others.begin(), others.end());
+    const Finished both = run(words);
+    EXPECT_EQ(both.exit_code, 2);
+    EXPECT_THAT(both.err, HasSubstr("--minutes: "));
+  }
+}
+
+TEST_F(Calibrate, SaysAfterEachRoundWhatIsKnown) {
+  const Finished done = run({"study.toml", "--progress", "p.json"});
+  ASSERT_EQ(done.exit_code, 0);
+  EXPECT_THAT(done.err, HasSubstr("after round 1, provisional (95 %): particle_wall.restitution "));
+  const json rounds = json::parse(text("p.json"))["rounds"];
+  for (const json& round : rounds) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_LT(round["intervals"][k][0], round["values"][k]);
+      EXPECT_GT(round["intervals"][k][1], round["values"][k]);
+    }
+  }
 }
 
 TEST_F(Calibrate, SaysHowFarItIsInAFile) {

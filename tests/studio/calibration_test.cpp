@@ -195,6 +195,12 @@ TEST_F(StudioCalibrations, AnEstimateTellsTheTimeOfEachBudgetAndSavesNothing) {
   EXPECT_THAT(studio_.folder.names(), Not(Contains("peas_calibration")));
 }
 
+TEST_F(StudioCalibrations, OneOfSoManyMinutesIsThatOfTheCommandLine) {
+  const Json started = studio_.post(std::string(kTask) + "&amount=2min", {});
+  EXPECT_EQ(started.at("tasks").at(0).at("command"), "repose calibrate peas.toml --minutes 2");
+  ASSERT_EQ(ended().at("state"), "done") << ended();
+}
+
 TEST_F(StudioCalibrations, APlanIsThatOfTheCommandLine) {
   studio_.post("/api/tasks?study=peas.toml&task=plan&amount=0.1", {});
   const Json task = ended();

@@ -142,6 +142,10 @@ const Found = ({state, look}: {state: Calibration; look: () => Promise<void>}) =
   );
 };
 
+const kUsualMinutes = '20min';
+const minutesIn = (budget: string) => (budget.endsWith('min') ? budget.slice(0, -3) : null);
+const budgetOption = (budget: string) => (minutesIn(budget) === null ? `--budget ${budget}` : `--minutes ${minutesIn(budget)}`);
+
 const Budgets = ({estimate, budget, choose}: {estimate: Estimate | null; budget: string; choose: (budget: string) => void}) => {
   const known = estimate?.budgets ?? [{budget: 'quick', description: '', seconds: 0, experiments: []}, {budget: 'standard', description: '', seconds: 0, experiments: []}];
   return (
@@ -154,6 +158,10 @@ const Budgets = ({estimate, budget, choose}: {estimate: Estimate | null; budget:
             <small>{one.experiments.map((runs) => `${runs.experiment} ${runs.fit_runs} + ${runs.check_runs}`).join(', ')} simulations, for the fit + for its checks</small></>}</span>
         </label>
       ))}
+      <label class="choice">
+        <input type="radio" name="budget" value="minutes" checked={minutesIn(budget) !== null} onChange={() => choose(kUsualMinutes)} />
+        <span><b>minutes</b>: all of it within <input type="number" min="1" step="1" aria-label="Minutes" value={minutesIn(budget) ?? ''} onInput={(event) => { if (event.currentTarget.value) choose(`${event.currentTarget.value}min`); }} /></span>
+      </label>
     </fieldset>
   );
 };
@@ -226,7 +234,7 @@ export const CalibrationView = ({study, tasks, refresh}: {study: Study; tasks: T
       {estimating && <Ended task={estimating} />}
       <section class="command" aria-label="The same on the command line">
         <h3>The same on the command line</h3>
-        <code>repose calibrate {study.study} --budget {budget}</code>
+        <code>repose calibrate {study.study} {budgetOption(budget)}</code>
         <code>repose report {state.folder}</code>
       </section>
     </div>
