@@ -1,0 +1,162 @@
+// Which experiments of a study have coarse runs, what these simulate, and what is told of them.
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "calibrate/experiment/run_spec.h"
+#include "calibrate/fit/budget.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/study/study_estimate.h"
+#include "calibrate/study/study_problem.h"
+#include "calibrate/study/study_record.h"
+#include "calibrate/study/study_simulator.h"
+#include "tests/calibrate/sphere_study.h"
+#include "tests/support/temporary_folder.h"
+
+namespace repose::calibrate {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Ge;
+using ::testing::Le;
+
+/// Balls in a tube that holds about 1,900 of them.
+constexpr const char* kHeapOfMany = R"([experiment.heap]
+tube_diameter_mm = 30
+tube_height_mm = 60
+stiffness_factor = 0.1
+measured = { mean = 20, sd = 1, n = 5 }
+)";
+
+class CoarseStudy : public ::testing::Test {
+ protected:
+  StudyRecord record(double size_mm = 3, const std::string& heap = kHeapOfMany) const {
+    StudyRecord record;
+    record.study =
+        dem::read_study(folder_.write("study.toml", test::kSphereStudy + heap),
+                        {"particle.size_mm = [" + std::to_string(size_mm) + ", " +
+                         std::to_string(size_mm) + ", " + std::to_string(size_mm) + "]"});
+    record.grain = dem::build_grain(record.study.grain);
+    record.method = "joint";
+    record.budget = budget_named("quick");
+    return record;
+  }
+
+  static Problem problem_in(const StudyRecord& record) {
+    return problem_of(record.study, record.grain, record.budget).problem;
+  }
+
+  static Job heap_job(const Problem& problem, const AssumedInputs& inputs) {
+    const Experiment& heap = experiment_named(problem, "heap");
+    Job job = job_at(problem, heap, Point(problem.parameters.size(), .5), 3);
+    job.inputs = inputs;
+    return job;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CoarseStudy, HeapsOfManyGrainsHaveCoarseRunsAndOthersNone) {
+  const Problem many = problem_in(record());
+  ASSERT_TRUE(experiment_named(many, "heap").coarse);
+  EXPECT_THAT(experiment_named(many, "heap").coarse->size, AllOf(Ge(1.5), Le(2.5)));
+  EXPECT_FALSE(experiment_named(many, "drop").coarse);
+  EXPECT_FALSE(experiment_named(problem_in(record(8)), "heap").coarse);
+  StudyRecord full = record();
+  full.budget.is_full = true;
+  EXPECT_FALSE(experiment_named(problem_in(full), "heap").coarse);
+}
+
+TEST_F(CoarseStudy, GrainsAskedForByNumberAreFewerLikewise) {
+  const StudyRecord counted = record(3, std::string(kHeapOfMany) + "grains = 1500\n");
+  const Problem problem = problem_in(counted);
+  const AssumedInputs coarse = experiment_named(problem, "heap").usual_inputs();
+  const StudySimulator simulator(counted.study, counted.grain, problem.parameters, 0);
+  const RunSpec spec = simulator.spec(heap_job(problem, coarse));
+  EXPECT_NEAR(*spec.protocol.as<dem::HeapProtocol>().grains, 1500 / std::pow(coarse.size, 3), 1);
+  EXPECT_EQ(*simulator.spec(heap_job(problem, {})).protocol.as<dem::HeapProtocol>().grains, 1500);
+}
+
+TEST_F(CoarseStudy, TheSameClumpIsLargerAndAllElseStays) {
+  const StudyRecord study = record();
+  const Problem problem = problem_in(study);
+  const StudySimulator simulator(study.study, study.grain, problem.parameters, 0);
+  const AssumedInputs coarse = experiment_named(problem, "heap").usual_inputs();
+  const RunSpec full = simulator.spec(heap_job(problem, {}));
+  const RunSpec larger = simulator.spec(heap_job(problem, coarse));
+  EXPECT_NEAR(larger.model.grain.volume_m3, std::pow(coarse.size, 3) * full.model.grain.volume_m3,
+              1e-12);
+  EXPECT_EQ(larger.model.grain.spheres.size(), full.model.grain.spheres.size());
+  EXPECT_EQ(larger.model.stiffness_factor, full.model.stiffness_factor);
+  EXPECT_EQ(larger.model.grain_wall.sliding_friction, full.model.grain_wall.sliding_friction);
+  EXPECT_NE(key_of(larger, 3), key_of(full, 3));
+}
+
+TEST_F(CoarseStudy, ACoarseRunHasAsFewGrainsAsForeseen) {
+  const StudyRecord study = record();
+  const Problem problem = problem_in(study);
+  const StudySimulator simulator(study.study, study.grain, problem.parameters, 0);
+  const Job job = heap_job(problem, experiment_named(problem, "heap").usual_inputs());
+  const std::atomic<bool> is_interrupted{false};
+  const Run run = run_of(job, simulator.simulate(job, is_interrupted));
+  ASSERT_EQ(run.failure, "");
+  EXPECT_THAT(run.readings.at("grains"), AllOf(Ge(200), Le(400)));
+}
+
+TEST_F(CoarseStudy, TheFolderTellsMixedRunsFromFullOnes) {
+  const std::filesystem::path kept = folder_.path() / "kept";
+  std::filesystem::create_directory(kept);
+  StudyRecord full = record();
+  full.budget.is_full = true;
+  EXPECT_FALSE(is_same_study(identity_of(record()), identity_of(full)));
+  write_study_record(kept, record());
+  EXPECT_FALSE(read_study_record(kept).budget.is_full);
+  write_study_record(kept, full);
+  EXPECT_TRUE(read_study_record(kept).budget.is_full);
+  // Where nothing can be coarse there is nothing to tell.
+  StudyRecord few = record(8);
+  const StudyIdentity mixed = identity_of(few);
+  few.budget.is_full = true;
+  EXPECT_TRUE(is_same_study(mixed, identity_of(few)));
+}
+
+TEST_F(CoarseStudy, ItsWorkIsForeseenWithBothKinds) {
+  const StudyRecord mixed = record();
+  StudyRecord full = mixed;
+  full.budget.is_full = true;
+  const Problem problem = problem_in(mixed);
+  const Experiment& heap = experiment_named(problem, "heap");
+  const auto heap_in = [](const std::vector<ExperimentEstimate>& estimates) {
+    return *std::ranges::find(estimates, "heap", &ExperimentEstimate::experiment);
+  };
+  const PhaseWork first = heap_in(estimate_of(problem, mixed.budget)).of(Phase::first_round);
+  const int pairs = full_runs_of_first_round(heap);
+  EXPECT_NEAR(first.seconds, pairs * heap.run_s + (first.runs - pairs) * usual_run_s(heap), 1e-9);
+  const PhaseWork all_full =
+      heap_in(estimate_of(problem_in(full), full.budget)).of(Phase::first_round);
+  EXPECT_LT(first.seconds / first.runs, .5 * all_full.seconds / all_full.runs);
+}
+
+TEST_F(CoarseStudy, DearChecksAreFewerAndOthersAsAsked) {
+  const StudyRecord study = record();
+  const Problem problem = problem_in(study);
+  Problem dear = problem;
+  for (Experiment& experiment : dear.experiments) {
+    if (experiment.coarse) experiment.run_s = dear.settings.budget_s / 10;
+  }
+  const Budget fewer = with_affordable_checks(study.budget, dear);
+  EXPECT_EQ(fewer.verification_repeats, 5);
+  EXPECT_EQ(fewer.round_repeats, 2);
+  EXPECT_EQ(fewer.family_sets, 0);
+  for (Experiment& experiment : dear.experiments) experiment.coarse.reset();
+  EXPECT_EQ(with_affordable_checks(study.budget, dear).verification_repeats,
+            study.budget.verification_repeats);
+}
+
+}  // namespace
+}  // namespace repose::calibrate
