@@ -144,14 +144,14 @@ Budget budget_within(double minutes, const Problem& problem, const Pace& pace, i
 Budget budget_of_minutes(double minutes, const PreparedStudy& study,
                          const std::atomic<bool>& is_interrupted,
                          const std::function<void(std::size_t, std::size_t)>& timed) {
-  constexpr double kLongest_s = 20, kOfTheTime = .03;
+  constexpr double kMostTimed_s = 20, kOfTheTime = .03;
   const Clock::time_point start = Clock::now();
   if (const auto notes = read_study_notes(study.folder); notes && notes->limits) {
     StudyIdentity own = identity_of(study.record);
     own.budget = name_of_minutes(minutes);
     if (is_same_study(notes->study, own)) return *notes->limits;
   }
-  const Pace pace = timed_pace(study, std::min(kLongest_s, kOfTheTime * kMinute_s * minutes),
+  const Pace pace = timed_pace(study, std::min(kMostTimed_s, kOfTheTime * kMinute_s * minutes),
                                is_interrupted, timed);
   const std::chrono::duration<double> spent = Clock::now() - start;
   return budget_within(minutes, study.problem.problem, pace, study.threads, spent.count());

@@ -426,7 +426,7 @@ void leave(const Problem& problem, const StudyContext& context, const JobRunner&
   try {
     context.leave({.stage = runner.stage(), .fit = fit_jointly(problem, runs), .runs = runs});
   } catch (const base::InputError&) {
-    // Too few runs have a reading: nothing is known yet.
+    return;  // too few runs have a reading: nothing is known yet
   }
 }
 

@@ -94,10 +94,10 @@ std::optional<calibrate::StudyResult> provisional_in(const CalibratePlan& plan) 
         is_same_study(left->provenance.study, identity_of(plan.record))) {
       return left;
     }
+    return std::nullopt;
   } catch (const base::InputError&) {
-    // A damaged one is none.
+    return std::nullopt;  // a damaged one is none
   }
-  return std::nullopt;
 }
 
 ExitCode finish_interrupted(const CalibratePlan& plan) {
