@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = Calibrations::Json;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLines = 30;      // of what a program printed

@@ -10,8 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "studio/json_answer.h"
 #include "studio/study_folder.h"
 
 namespace repose::studio {
@@ -29,8 +28,6 @@ inline constexpr const char* kPlanFile = "plan.json";
 /// there.
 class Calibrations {
  public:
-  using Json = nlohmann::ordered_json;
-
   /// @param program  empty: nothing can be started
   Calibrations(const StudyFolder& studies, std::filesystem::path program);
   /// What runs is asked to end, and has ended.

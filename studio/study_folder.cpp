@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = StudyFolder::Json;
-
 constexpr std::uintmax_t kLargestStudy_bytes = std::uintmax_t{1} << 20;
 
 /// A study has one of its sections; camera files and hints of pictures, which end likewise, have

@@ -4,9 +4,8 @@
 #include <mutex>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "dem/study/study.h"
+#include "studio/json_answer.h"
 
 namespace repose::studio {
 
@@ -19,8 +18,6 @@ namespace repose::studio {
 /// for a name that is not there.
 class StudyFolder {
  public:
-  using Json = nlohmann::ordered_json;
-
   explicit StudyFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -60,21 +57,18 @@ class StudyFolder {
 
 /// What is asked for a new study: `grains`, `plates`, `parts`, `experiments`, each with what it
 /// says unless it is said otherwise.
-nlohmann::ordered_json new_study_form();
+Json new_study_form();
 
 /// What a study of which that was said would be: `command`, `faults` [{`field`, `text`}], `title`,
 /// `assumed`, `sheets`, `coefficients`, `usual`.
-nlohmann::ordered_json drafted_study(const std::filesystem::path& folder,
-                                     const nlohmann::ordered_json& said);
+Json drafted_study(const std::filesystem::path& folder, const Json& said);
 
 /// Writes it as `repose new` does. @returns  the same, and `study`, its name
 /// @throws base::InputError  there is a fault, or it cannot be written.
-nlohmann::ordered_json start_study(const std::filesystem::path& folder,
-                                   const nlohmann::ordered_json& said);
+Json start_study(const std::filesystem::path& folder, const Json& said);
 
 /// @throws base::InputError  what was sent is not made from this text: its `version` is another.
-void require_version(const nlohmann::ordered_json& sent, const std::string& text,
-                     const std::string& name);
+void require_version(const Json& sent, const std::string& text, const std::string& name);
 
 /// Whether a file is in a folder, once links are followed.
 bool is_within(const std::filesystem::path& file, const std::filesystem::path& folder);

@@ -20,7 +20,6 @@ namespace repose::studio {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = StudyFolder::Json;
 
 /// What is to become of a study's numbers, and what is wrong with them.
 struct Numbers {

@@ -184,6 +184,9 @@ export const studies = {
   fileAddress: (study: string, name: string) => of('/files/calibration', {study, name}),
 };
 
+/** A task that runs, or waits for those before it. */
+export const isAtWork = (task: Task | null) => task !== null && ['running', 'stopping', 'waiting'].includes(task.state);
+
 // "particle–wall restitution" for contact.particle_wall.restitution.
 export const coefficientName = (name: string) => {
   const [, pair = '', which = name] = name.split('.');
