@@ -398,6 +398,77 @@ void require_version(const Json& sent, const std::string& text, const std::strin
                           .fix = "load it again, and make the change once more."});
 }
 
+namespace {
+
+/// What a test reads of a table, in the table's order.
+std::vector<std::string> columns_read(const calibrate::BenchTest& test,
+                                      const calibrate::Table& table) {
+  std::vector<std::string> read{std::string(calibrate::kSampleColumn)};
+  for (const auto& column : columns_of(test)) read.push_back(column.name);
+  for (const auto& column : optional_columns_of(test)) read.push_back(column.name);
+  std::vector<std::string> columns;
+  for (const std::string& column : table.columns) {
+    if (std::ranges::find(read, column) != read.end()) columns.push_back(column);
+  }
+  return columns;
+}
+
+/// The cells of that column; none where there is none.
+std::string cell_of(const calibrate::Table& table, const calibrate::TableRow& row,
+                    std::string_view column) {
+  const auto place = table.column(column);
+  return place ? row.cells[*place] : std::string();
+}
+
+/// Rows that were typed have heights that were read in air, and settings that were set: columns
+/// that a film brings say so from now on.
+void add_column(calibrate::Table& table, const std::string& name) {
+  const bool is_name = name == calibrate::kSampleColumn;
+  if (table.columns.size() == 1) table.delimiter = ',';
+  table.columns.push_back(name);
+  for (calibrate::TableRow& row : table.rows) {
+    row.cells.emplace_back(is_name ? "" : name == calibrate::kInAirColumn ? "1" : "0");
+  }
+}
+
+}  // namespace
+
+Json StudyFolder::add_readings(const std::string& name, const std::string& experiment,
+                               const std::string& csv) {
+  const SheetOf sheet = sheet_of(name, experiment);
+  const auto given = calibrate::parse_table("film", csv, calibrate::NoRows::refused);
+  const std::lock_guard lock(saving_);
+  auto table = calibrate::parse_table(sheet.name(), sheet.text(), calibrate::NoRows::allowed);
+  const std::string sample(calibrate::kSampleColumn);
+  std::erase_if(table.rows, [&](const calibrate::TableRow& row) {
+    const std::string own = cell_of(table, row, sample);
+    return !own.empty() && std::ranges::any_of(given.rows, [&](const calibrate::TableRow& other) {
+      return cell_of(given, other, sample) == own;
+    });
+  });
+  const auto columns = columns_read(calibrate::bench_test_named(sheet.entry->sheet.test), given);
+  for (const std::string& column : columns) {
+    if (!table.column(column)) add_column(table, column);
+  }
+  for (const calibrate::TableRow& row : given.rows) {
+    std::vector<std::string> cells;
+    for (const std::string& column : table.columns) {
+      const bool is_read = std::ranges::find(columns, column) != columns.end();
+      cells.push_back(is_read ? cell_of(given, row, column) : "");
+    }
+    table.rows.push_back({.line = 0, .cells = std::move(cells)});
+  }
+  const std::string text = csv_text(table);
+  const auto checked = calibrate::readings_of_table(
+      *sheet.entry, sheet.described, sheet.name(),
+      calibrate::parse_table(sheet.name(), text, calibrate::NoRows::allowed),
+      calibrate::NoRows::allowed);
+  base::write_whole_file(sheet.file, text);
+  return {{"sheet", sheet.file.lexically_relative(folder_).generic_string()},
+          {"rows", given.rows.size()},
+          {"notes", checked.notes}};
+}
+
 Json StudyFolder::save_sheet(const std::string& name, const std::string& experiment,
                              const Json& cells) {
   const SheetOf sheet = sheet_of(name, experiment);

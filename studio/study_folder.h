@@ -41,6 +41,13 @@ class StudyFolder {
   /// @throws base::InputError  the file is of another version by now, or cannot be written.
   Json save_sheet(const std::string& name, const std::string& experiment, const Json& cells);
 
+  /// Puts rows of a table that a film gave below the sheet's own; those of the same sample are
+  /// replaced. Columns that the sheet's test reads and the sheet lacks are added. Answers the
+  /// `sheet`'s name, how many `rows` were added, and `notes`.
+  /// @throws base::InputError  the study names no sheet, the sheet would be at fault, as with
+  ///   another height of fall than the study's, or it cannot be written: nothing is.
+  Json add_readings(const std::string& name, const std::string& experiment, const std::string& csv);
+
   /// What `numbers` of the protocols, {"experiment.drop": {"height_mm": "500"}}, would be: `faults`
   /// [{`key`, `text`}], the key null where it is of none of them. An empty text takes a key out.
   Json checked_numbers(const std::string& name, const Json& numbers) const;

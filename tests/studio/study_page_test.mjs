@@ -160,7 +160,9 @@ const sit = async (browser, folder) => {
   assert.equal(await end(studio, 'SIGINT'), 0);
 };
 
-const folder = mkdtempSync(join(tmpdir(), 'repose-studio-'));
+const above = mkdtempSync(join(tmpdir(), 'repose-studio-'));
+const folder = join(above, 'peas_on_wood');
+mkdirSync(folder);
 if (pictures) mkdirSync(pictures, {recursive: true});
 const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
 try {
@@ -168,5 +170,5 @@ try {
 } finally {
   await endAll();
   await browser.close();
-  rmSync(folder, {recursive: true});
+  rmSync(above, {recursive: true});
 }
