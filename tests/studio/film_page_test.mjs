@@ -47,7 +47,7 @@ const startStudy = async (page) => {
 // A drop, tracked as it comes; frames by the arrow keys.
 const lookThrough = async (page) => {
   await choose(page, 'drop_1.mp4');
-  await until(page, () => /restitution 0\.6\d\d\s±\s/.test(document.querySelector('.result .angle')?.textContent ?? ''));
+  await until(page, () => /^0\.6\d\d\s±\s/.test(document.querySelector('.result .angle')?.textContent ?? ''));
   assert.equal(await textOf(page, '.result .badge'), 'ok');
   assert.match(await textOf(page, '.command code'), /^repose track drop .*drop_1\.mp4$/);
   await page.waitForSelector('.strobe img');

@@ -24,7 +24,7 @@ export const FilmedChoice = ({filmed, choose}: {filmed: Filmed; choose: (filmed:
   </div>
 );
 
-const within = (value: number, half: number, digits: number) => `${value.toFixed(digits)}\u00a0±\u00a0${half.toFixed(digits)}`;
+const within = (value: number, half: number, digits: number) => `${value.toFixed(digits)} ± ${half.toFixed(digits)}`;
 
 const Bounces = ({bounces, chosen, choose, look}: {bounces: Bounce[]; chosen: number[]; choose: (chosen: number[]) => void; look: (time_s: number) => void}) => (
   <div class="scrolled" tabIndex={0} role="region" aria-label="Bounces">
@@ -49,9 +49,11 @@ const Bounces = ({bounces, chosen, choose, look}: {bounces: Bounce[]; chosen: nu
   </div>
 );
 
+const kRead: Record<Experiment, string> = {drop: 'restitution', roll: 'along the flat', tilt: 'slides at'};
+
 const headline = ({experiment, bounces, roll, tilt}: Tracked) => {
   const first = bounces?.find(({number}) => number === 1);
-  if (experiment === 'drop') return first ? `restitution ${within(first.restitution, first.restitution_uncertainty, 3)}` : 'no first bounce';
+  if (experiment === 'drop') return first ? within(first.restitution, first.restitution_uncertainty, 3) : 'no first bounce';
   if (experiment === 'roll') return roll ? `${within(roll.stopped_mm, roll.stopped_uncertainty_mm, 1)} mm` : 'no roll';
   return tilt ? `${within(tilt.angle_deg, tilt.angle_uncertainty_deg, 2)}°` : 'no slide';
 };
@@ -162,6 +164,7 @@ export const FilmView = ({entry, experiment, choose}: {entry: FileEntry; experim
       <aside>
         <section class="result" aria-label="Result">
           <div role="status" aria-live="polite">
+            {tracked && <p class="hint">{kRead[experiment]}</p>}
             {tracked && <p class="angle">{headline(tracked)} <Badge status={tracked.status} /></p>}
             {(tracked?.reason ?? reason) && <p class="reason">{tracked?.reason ?? reason}</p>}
           </div>
