@@ -118,26 +118,6 @@ Json head_json(const fs::path& file, const Looked& looked) {
           {"faults", texts_of(looked.faults, file.parent_path())}};
 }
 
-Json sought_json(const dem::Study& study) {
-  Json sought = Json::array();
-  const auto add_set = [&](const std::string& pair, const dem::CoefficientSet& set) {
-    const auto add = [&](const char* name, const dem::Coefficient& coefficient) {
-      if (!coefficient.is_free()) return;
-      sought.push_back({{"name", fmt::format("contact.{}.{}", pair, name)},
-                        {"min", coefficient.min},
-                        {"max", coefficient.max}});
-    };
-    add("restitution", set.restitution);
-    add("sliding_friction", set.sliding_friction);
-    add("rolling_friction", set.rolling_friction);
-    add("restitution_exponent", set.restitution_exponent);
-  };
-  add_set("particle_wall", study.particle_wall);
-  for (const auto& [part, set] : study.particle_parts) add_set("particle_" + name_of(part), set);
-  add_set("particle_particle", study.particle_particle);
-  return sought;
-}
-
 /// The keys of a protocol as its experiment's entry has them.
 Json keys_json(const dem::ExperimentEntry& entry, dem::Protocol protocol) {
   Json keys = Json::array();
@@ -267,6 +247,27 @@ std::optional<std::size_t> column_of(const base::Fault& fault,
 }
 
 }  // namespace
+
+Json sought_json(const dem::Study& study) {
+  Json sought = Json::array();
+  const auto add_set = [&](const std::string& pair, const dem::CoefficientSet& set) {
+    const auto add = [&](const char* name, const dem::Coefficient& coefficient) {
+      if (!coefficient.is_free()) return;
+      sought.push_back({{"name", fmt::format("contact.{}.{}", pair, name)},
+                        {"value", coefficient.value ? Json(*coefficient.value) : Json(nullptr)},
+                        {"min", coefficient.min},
+                        {"max", coefficient.max}});
+    };
+    add("restitution", set.restitution);
+    add("sliding_friction", set.sliding_friction);
+    add("rolling_friction", set.rolling_friction);
+    add("restitution_exponent", set.restitution_exponent);
+  };
+  add_set("particle_wall", study.particle_wall);
+  for (const auto& [part, set] : study.particle_parts) add_set("particle_" + name_of(part), set);
+  add_set("particle_particle", study.particle_particle);
+  return sought;
+}
 
 bool is_within(const fs::path& file, const fs::path& folder) {
   std::error_code error;

@@ -50,6 +50,8 @@ class StudyFolder {
 
   /// What `numbers` of the protocols, {"experiment.drop": {"height_mm": "500"}}, would be: `faults`
   /// [{`key`, `text`}], the key null where it is of none of them. An empty text takes a key out.
+  /// Likewise of the coefficients that are sought: {"contact.particle_wall.restitution": {"max":
+  /// "0.8"}}.
   Json checked_numbers(const std::string& name, const Json& numbers) const;
   /// The same, and writes them; as save_sheet().
   Json save_numbers(const std::string& name, const Json& numbers);
@@ -76,6 +78,9 @@ Json start_study(const std::filesystem::path& folder, const Json& said);
 
 /// @throws base::InputError  what was sent is not made from this text: its `version` is another.
 void require_version(const Json& sent, const std::string& text, const std::string& name);
+
+/// The coefficients that a study seeks: [{`name`, `value`, `min`, `max`}]; no value: null.
+Json sought_json(const dem::Study& study);
 
 /// Whether a file is in a folder, once links are followed.
 bool is_within(const std::filesystem::path& file, const std::filesystem::path& folder);

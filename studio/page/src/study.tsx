@@ -3,7 +3,7 @@ import {useCallback, useEffect, useState} from 'preact/hooks';
 import {CalibrationView} from './calibration';
 import {NewStudy} from './new_study';
 import {PlanView} from './plan';
-import {Protocol, Sheet} from './sheet';
+import {Bounds, Protocol, Sheet} from './sheet';
 import type {Study, StudyHead, Task} from './study_api';
 import {isAtWork, studies} from './study_api';
 import {useLooking} from './watched';
@@ -53,6 +53,7 @@ const Bench = ({study, reload}: {study: Study; reload: () => Promise<void>}) => 
         <Protocol study={study} experiment={one} reload={reload} />
       </section>
     ))}
+    {study.sought && study.sought.length > 0 && <section class="experiment" aria-label="bounds"><Bounds study={study} reload={reload} /></section>}
     {study.notes?.map((note) => <p key={note} class="warning">{note}</p>)}
   </div>
 );

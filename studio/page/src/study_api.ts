@@ -68,7 +68,7 @@ export interface Study extends StudyHead {
   hash?: string;
   version?: string;
   notes?: string[];
-  sought?: {name: string; min: number; max: number}[];
+  sought?: {name: string; value: number | null; min: number; max: number}[];
   experiments?: StudyExperiment[];
 }
 
