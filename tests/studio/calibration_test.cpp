@@ -20,7 +20,6 @@ namespace repose::studio {
 namespace {
 
 using test::ServedFolder;
-using Json = ServedFolder::Json;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

@@ -19,8 +19,6 @@ using ::testing::StartsWith;
 /// A folder with films of each experiment, and a study of drops and tilts.
 class FilmsOfBench : public ::testing::Test {
  protected:
-  using Json = test::ServedFolder::Json;
-
   FilmsOfBench() {
     namespace fs = std::filesystem;
     const fs::path films = repose::testing::source_folder() / "samples/from_camera/films";

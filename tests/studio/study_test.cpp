@@ -10,7 +10,6 @@ namespace repose::studio {
 namespace {
 
 using test::ServedFolder;
-using Json = ServedFolder::Json;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
