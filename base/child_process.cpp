@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -17,6 +18,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/file.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -54,6 +56,7 @@ void require_spawned(int error) {
   if (error != 0) throw std::system_error(error, std::generic_category());
 }
 
+constexpr const char* kMarkName = "REPOSE_STARTED";
 constexpr const char* kMarkVariable = "REPOSE_STARTED=";
 
 /// None of any other process, nor of any time.
@@ -127,6 +130,19 @@ pid_t spawn(const ProcessStart& start, int output, const std::string& mark) {
 }
 
 }  // namespace
+
+void end_with_parent() {
+  const char* const marks = std::getenv(kMarkName);
+  if (marks == nullptr) return;
+  const std::string_view all = marks;
+  const std::string_view last = all.substr(all.rfind(' ') + 1);  // npos + 1 is 0
+  const std::string parent = fmt::format("{}.", ::getppid());
+  // What the child has started itself, as a shell, has another parent.
+  if (!last.starts_with(parent)) return;
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  // It may have died before it was asked for.
+  if (fmt::format("{}.", ::getppid()) != parent) ::raise(SIGTERM);
+}
 
 std::string ProcessEnd::text() const {
   constexpr int kOfShells = 128;

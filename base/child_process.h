@@ -58,6 +58,10 @@ class ChildProcess {
   std::optional<ProcessEnd> end_;
 };
 
+/// Asks this program to end (SIGTERM) when the one that has started it as a ChildProcess dies, as
+/// of SIGKILL. Does nothing in a program that was started otherwise.
+void end_with_parent();
+
 /// Whether a program that was started with this output still has it open, of a process that was
 /// killed, say. False where there is no such file.
 bool is_in_use(const std::filesystem::path& output);

@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = Calibrations::Json;
-
 constexpr const char* kReportFile = "report.html";
 
 /// What a file holds; null: it is not there, or no JSON.

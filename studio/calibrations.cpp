@@ -14,8 +14,10 @@
 
 #include "base/atomic_file.h"
 #include "base/child_process.h"
+#include "base/folder_lock.h"
 #include "base/input_error.h"
 #include "base/text.h"
+#include "calibrate/experiment/run_store.h"
 #include "calibrate/statistics/table/table.h"
 #include "calibrate/study/study_problem.h"
 
@@ -25,9 +27,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = Calibrations::Json;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kTasksFile = ".repose-studio.tasks";
 constexpr std::size_t kLines = 30;      // of what a program printed
 constexpr std::size_t kMostEnded = 50;  // tasks that are remembered
 constexpr std::size_t kMostWaiting = 50;
@@ -61,10 +63,13 @@ std::string argument_of(const std::string& study) {
 struct Calibrations::Task {
   std::string study;
   std::string name;
+  std::string amount;
   std::vector<std::string> words;  ///< as a person would type them
   std::vector<std::string> extra;  ///< for this page
   fs::path output;
-  fs::path estimate;  ///< of an estimate
+  fs::path estimate;         ///< of an estimate
+  bool is_given_up = false;  ///< a person has stopped it
+  bool is_taken_up = false;  ///< of an earlier studio
   std::string state = "waiting";
   std::string end;                 ///< how it ended, where that was not good
   std::vector<std::string> lines;  ///< once it has ended
@@ -79,6 +84,7 @@ Calibrations::Calibrations(const StudyFolder& studies, fs::path program)
     throw std::system_error(errno, std::generic_category(), name);
   }
   temporary_ = name;
+  take_up();
   worker_ = std::jthread([this] { work(); });
 }
 
@@ -104,7 +110,10 @@ void Calibrations::work() {
     lock.unlock();
     carry_out(task);
     lock.lock();
+    // The next studio goes on with what has ended because this one does.
+    if (is_ending_ && task->state == "stopped" && !task->is_given_up) return;
     open_.pop_front();
+    write_down();
     ended_.push_front(task);
     if (ended_.size() > kMostEnded) ended_.pop_back();
   }
@@ -118,6 +127,7 @@ void Calibrations::carry_out(const std::shared_ptr<Task>& task) {
   std::string state = "failed", end;
   std::vector<std::string> lines;
   try {
+    wait_for_earlier(*task);
     base::ChildProcess program(
         {.words = words, .folder = studies_.folder(), .output = task->output});
     std::optional<Clock::time_point> asked;
@@ -178,13 +188,15 @@ Json Calibrations::tasks() const {
   return {{"tasks", tasks}};
 }
 
-void Calibrations::start(const std::string& study, const std::string& name,
-                         const std::string& amount) {
+std::shared_ptr<Calibrations::Task> Calibrations::task_of(const std::string& study,
+                                                          const std::string& name,
+                                                          const std::string& amount) const {
   const fs::path folder = studies_.calibration_of(study);
   const std::string own = argument_of(study);
   auto task = std::make_shared<Task>();
   task->study = study;
   task->name = name;
+  task->amount = amount;
   if (program_.empty()) throw base::InputError({.value = "this studio can start nothing"});
   if (!is_within(folder, studies_.folder())) {
     base::refuse(folder, "leads out of the folder", "move it away.");
@@ -210,6 +222,28 @@ void Calibrations::start(const std::string& study, const std::string& name,
   } else {
     throw base::InputError({.where = base::printable(name), .value = "is no task"});
   }
+  return task;
+}
+
+void Calibrations::open(const std::shared_ptr<Task>& task) {
+  const int number = ++started_;
+  task->output = temporary_ / fmt::format("{}.log", number);
+  if (task->name == "estimate") {
+    task->estimate = temporary_ / fmt::format("{}.json", number);
+    task->extra = {"--json", task->estimate.string()};
+  } else {
+    // For what it writes there before its own work begins.
+    const fs::path folder = studies_.calibration_of(task->study);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) base::refuse(folder, "cannot be made (" + error.message() + ")", "free its name.");
+  }
+  open_.push_back(task);
+}
+
+void Calibrations::start(const std::string& study, const std::string& name,
+                         const std::string& amount) {
+  const auto task = task_of(study, name, amount);
   const std::lock_guard lock(mutex_);
   for (const auto& other : open_) {
     if (other->study != study || other->name != name) continue;
@@ -218,19 +252,54 @@ void Calibrations::start(const std::string& study, const std::string& name,
   if (open_.size() >= kMostWaiting) {
     throw base::InputError({.where = study, .value = "cannot wait", .rule = "at most 50 do"});
   }
-  const int number = ++started_;
-  task->output = temporary_ / fmt::format("{}.log", number);
-  if (name == "estimate") {
-    task->estimate = temporary_ / fmt::format("{}.json", number);
-    task->extra = {"--json", task->estimate.string()};
-  } else {
-    // For what it writes there before its own work begins.
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) base::refuse(folder, "cannot be made (" + error.message() + ")", "free its name.");
-  }
-  open_.push_back(std::move(task));
+  open(task);
+  write_down();
   changed_.notify_all();
+}
+
+void Calibrations::write_down() const {
+  Json tasks = Json::array();
+  for (const auto& task : open_) {
+    if (task->is_given_up || task->name == "estimate") continue;
+    tasks.push_back({{"study", task->study}, {"task", task->name}, {"amount", task->amount}});
+  }
+  try {
+    base::write_whole_file(studies_.folder() / kTasksFile, text_of(tasks));
+  } catch (const base::InputError&) {
+    // On a full disk tasks are carried out, too; the next studio does not know of them.
+  }
+}
+
+void Calibrations::take_up() {
+  if (program_.empty()) return;
+  const auto text = base::read_file_if_there(studies_.folder() / kTasksFile);
+  const Json tasks = Json::parse(text.value_or(""), nullptr, false);
+  if (!tasks.is_array()) return;
+  for (const Json& one : tasks) {
+    if (!one.is_object() || open_.size() >= kMostWaiting) continue;
+    try {
+      const auto task =
+          task_of(one.value("study", ""), one.value("task", ""), one.value("amount", ""));
+      task->is_taken_up = true;
+      open(task);
+    } catch (const base::InputError&) {
+      // Its study has gone.
+    } catch (const Json::exception&) {
+      // Not what a studio writes.
+    }
+  }
+}
+
+/// What an earlier studio that was killed has started ends by itself, after the run at hand.
+void Calibrations::wait_for_earlier(const Task& task) {
+  if (!task.is_taken_up) return;
+  const fs::path lock_file = calibrate::lock_file_in(studies_.calibration_of(task.study));
+  const Clock::time_point start = Clock::now();
+  std::unique_lock lock(mutex_);
+  while (!is_ending_ && !task.is_given_up && Clock::now() < start + kPatience &&
+         base::is_locked_by_another(lock_file)) {
+    changed_.wait_for(lock, kLook);
+  }
 }
 
 void Calibrations::stop(const std::string& study, const std::string& name) {
@@ -245,7 +314,9 @@ void Calibrations::stop(const std::string& study, const std::string& name) {
     open_.erase(found);
   } else {
     task.state = "stopping";
+    task.is_given_up = true;
   }
+  write_down();
   changed_.notify_all();
 }
 

@@ -10,8 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "studio/json_answer.h"
 #include "studio/study_folder.h"
 
 namespace repose::studio {
@@ -23,14 +22,14 @@ inline constexpr const char* kPlanFile = "plan.json";
 /// What is simulated for the folder's studies. Each task is the command line program, started as a
 /// person would start it, one at a time; the others wait in the order in which they were asked for.
 /// What a task has reached is in the folder of its calibration: it goes on there after it was
-/// stopped or killed, and what the page is told of it is read there, whoever started it.
+/// stopped or killed, and what the page is told of it is read there, whoever started it. Which
+/// tasks are open stands in a file of the folder: the next studio goes on with them, however this
+/// one ends.
 ///
 /// Several threads may ask at once. All of it throws base::InputError for a study that is not
 /// there.
 class Calibrations {
  public:
-  using Json = nlohmann::ordered_json;
-
   /// @param program  empty: nothing can be started
   Calibrations(const StudyFolder& studies, std::filesystem::path program);
   /// What runs is asked to end, and has ended.
@@ -69,6 +68,15 @@ class Calibrations {
  private:
   struct Task;
 
+  /// Those of an earlier studio that had not come to their end.
+  void take_up();
+  /// Writes down what is open, for the next studio. @pre the mutex is held
+  void write_down() const;
+  std::shared_ptr<Task> task_of(const std::string& study, const std::string& name,
+                                const std::string& amount) const;
+  /// Behind those that are open. @pre as write_down()
+  void open(const std::shared_ptr<Task>& task);
+  void wait_for_earlier(const Task& task);
   void work();
   void carry_out(const std::shared_ptr<Task>& task);
   Json task_json(const Task& task) const;

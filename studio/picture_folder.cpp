@@ -64,7 +64,7 @@ std::string state_of(const fs::path& file) {
   return fmt::format("{}-{}", size, time.time_since_epoch().count());
 }
 
-std::string version_of(const fs::path& file) {
+std::string file_version(const fs::path& file) {
   return state_of(file) + '+' + state_of(vision::hint_file_of(file));
 }
 
@@ -103,7 +103,7 @@ Json PictureFolder::list() const {
     std::error_code ignored;
     files.push_back({{"file", file.filename().string()},
                      {"kind", kind_of(file)},
-                     {"version", version_of(file)},
+                     {"version", file_version(file)},
                      {"has_hints", fs::exists(vision::hint_file_of(file), ignored)}});
   }
   Json definitions = Json::array();
@@ -129,8 +129,12 @@ fs::path PictureFolder::path_of(const std::string& file) const {
                           .fix = "load the page again."});
 }
 
+std::string PictureFolder::version_of(const std::string& file) const {
+  return file_version(path_of(file));
+}
+
 void PictureFolder::require_unchanged(const fs::path& path, const std::string& version) const {
-  if (version == version_of(path)) return;
+  if (version == file_version(path)) return;
   throw ChangedMeanwhile({.where = base::printable(path.filename().string()),
                           .value =
                               "it was changed in another window, or by a command, since you began: "
@@ -203,7 +207,7 @@ void drop_outline(calibrate::MeasuredPicture& measured) {
 }  // namespace
 
 std::shared_ptr<PictureFolder::Kept> PictureFolder::kept(const fs::path& path) {
-  const std::string version = version_of(path);
+  const std::string version = file_version(path);
   std::shared_ptr<Kept> kept;
   {
     const std::lock_guard lock(mutex_);
@@ -247,7 +251,7 @@ Json PictureFolder::measured_as(const std::string& file, const Json& told) {
   if (!is_photograph(path)) {
     throw base::InputError({.where = file, .value = "nothing can be told of it here"});
   }
-  const std::string version = version_of(path);
+  const std::string version = file_version(path);
   const vision::PictureSettings saved = vision::with_saved_hints({}, path);
   const vision::PictureSettings settings = settings_of(path, version, told);
   return answer_of(
@@ -316,7 +320,7 @@ PictureFolder::Bytes PictureFolder::mask(const std::string& file) {
 calibrate::MeasuredAgain PictureFolder::again(const std::string& file) {
   const fs::path path = path_of(file);
   const vision::PictureSettings told = vision::with_saved_hints({}, path);
-  return calibrate::measure_opened(*opened(path, version_of(path), told), told, false, kTools);
+  return calibrate::measure_opened(*opened(path, file_version(path), told), told, false, kTools);
 }
 
 PictureFolder::Bytes PictureFolder::picture(const std::string& file, int side_px, int turn_deg) {
@@ -331,7 +335,7 @@ PictureFolder::Bytes PictureFolder::picture(const std::string& file, int side_px
   // Marks lie where the lens's distortion is taken out.
   if (told.scale.lens)
     return vision::jpeg_of(vision::reduced(again(file).picture, side_px), kQuality);
-  const Opened picture = opened(path, version_of(path), told);
+  const Opened picture = opened(path, file_version(path), told);
   return vision::jpeg_of(vision::turned(vision::reduced(picture->picture, side_px), turn_deg),
                          kQuality);
 }

@@ -41,6 +41,8 @@ class PictureFolder {
   const std::filesystem::path& folder() const { return folder_; }
   /// The file of that name in the folder; no other name leads anywhere.
   std::filesystem::path path_of(const std::string& file) const;
+  /// Its version, as list() has it.
+  std::string version_of(const std::string& file) const;
 
   /// As `repose measure --json` has it, in `measured`; with `version`, `told`, `marks`
   /// (told_json.h), `command` and, of a refused picture, `proposed`, what the proposal would make

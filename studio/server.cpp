@@ -15,6 +15,8 @@
 #include "studio/answers.h"
 #include "studio/calibration_routes.h"
 #include "studio/calibrations.h"
+#include "studio/film_routes.h"
+#include "studio/film_tracks.h"
 #include "studio/http.h"
 #include "studio/picture_folder.h"
 #include "studio/set_comparisons.h"
@@ -58,6 +60,7 @@ struct Server::Parts {
 
   PictureFolder pictures;
   SetComparisons comparisons{pictures};
+  FilmTracks films{pictures};
   StudyFolder studies;
   Calibrations calibrations;
   httplib::Server http;
@@ -246,6 +249,7 @@ Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   parts.serve_page();
   parts.serve_pictures();
   parts.serve_files();
+  serve_films(parts.http, parts.films, parts.studies);
   serve_studies(parts.http, parts.studies);
   serve_calibrations(parts.http, parts.calibrations);
   parts.serve_comparisons();

@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = StudyFolder::Json;
-
 constexpr std::uintmax_t kLargestStudy_bytes = std::uintmax_t{1} << 20;
 
 /// A study has one of its sections; camera files and hints of pictures, which end likewise, have
@@ -118,26 +116,6 @@ Json head_json(const fs::path& file, const Looked& looked) {
           {"title", title},
           {"is_table", false},
           {"faults", texts_of(looked.faults, file.parent_path())}};
-}
-
-Json sought_json(const dem::Study& study) {
-  Json sought = Json::array();
-  const auto add_set = [&](const std::string& pair, const dem::CoefficientSet& set) {
-    const auto add = [&](const char* name, const dem::Coefficient& coefficient) {
-      if (!coefficient.is_free()) return;
-      sought.push_back({{"name", fmt::format("contact.{}.{}", pair, name)},
-                        {"min", coefficient.min},
-                        {"max", coefficient.max}});
-    };
-    add("restitution", set.restitution);
-    add("sliding_friction", set.sliding_friction);
-    add("rolling_friction", set.rolling_friction);
-    add("restitution_exponent", set.restitution_exponent);
-  };
-  add_set("particle_wall", study.particle_wall);
-  for (const auto& [part, set] : study.particle_parts) add_set("particle_" + name_of(part), set);
-  add_set("particle_particle", study.particle_particle);
-  return sought;
 }
 
 /// The keys of a protocol as its experiment's entry has them.
@@ -270,6 +248,27 @@ std::optional<std::size_t> column_of(const base::Fault& fault,
 
 }  // namespace
 
+Json sought_json(const dem::Study& study) {
+  Json sought = Json::array();
+  const auto add_set = [&](const std::string& pair, const dem::CoefficientSet& set) {
+    const auto add = [&](const char* name, const dem::Coefficient& coefficient) {
+      if (!coefficient.is_free()) return;
+      sought.push_back({{"name", fmt::format("contact.{}.{}", pair, name)},
+                        {"value", coefficient.value ? Json(*coefficient.value) : Json(nullptr)},
+                        {"min", coefficient.min},
+                        {"max", coefficient.max}});
+    };
+    add("restitution", set.restitution);
+    add("sliding_friction", set.sliding_friction);
+    add("rolling_friction", set.rolling_friction);
+    add("restitution_exponent", set.restitution_exponent);
+  };
+  add_set("particle_wall", study.particle_wall);
+  for (const auto& [part, set] : study.particle_parts) add_set("particle_" + name_of(part), set);
+  add_set("particle_particle", study.particle_particle);
+  return sought;
+}
+
 bool is_within(const fs::path& file, const fs::path& folder) {
   std::error_code error;
   const fs::path there = fs::weakly_canonical(fs::absolute(file), error);
@@ -398,6 +397,77 @@ void require_version(const Json& sent, const std::string& text, const std::strin
   throw ChangedMeanwhile({.where = name,
                           .value = "was changed meanwhile, on another page or by hand",
                           .fix = "load it again, and make the change once more."});
+}
+
+namespace {
+
+/// What a test reads of a table, in the table's order.
+std::vector<std::string> columns_read(const calibrate::BenchTest& test,
+                                      const calibrate::Table& table) {
+  std::vector<std::string> read{std::string(calibrate::kSampleColumn)};
+  for (const auto& column : columns_of(test)) read.push_back(column.name);
+  for (const auto& column : optional_columns_of(test)) read.push_back(column.name);
+  std::vector<std::string> columns;
+  for (const std::string& column : table.columns) {
+    if (std::ranges::find(read, column) != read.end()) columns.push_back(column);
+  }
+  return columns;
+}
+
+/// The cells of that column; none where there is none.
+std::string cell_of(const calibrate::Table& table, const calibrate::TableRow& row,
+                    std::string_view column) {
+  const auto place = table.column(column);
+  return place ? row.cells[*place] : std::string();
+}
+
+/// Rows that were typed have heights that were read in air, and settings that were set: columns
+/// that a film brings say so from now on.
+void add_column(calibrate::Table& table, const std::string& name) {
+  const bool is_name = name == calibrate::kSampleColumn;
+  if (table.columns.size() == 1) table.delimiter = ',';
+  table.columns.push_back(name);
+  for (calibrate::TableRow& row : table.rows) {
+    row.cells.emplace_back(is_name ? "" : name == calibrate::kInAirColumn ? "1" : "0");
+  }
+}
+
+}  // namespace
+
+Json StudyFolder::add_readings(const std::string& name, const std::string& experiment,
+                               const std::string& csv) {
+  const SheetOf sheet = sheet_of(name, experiment);
+  const auto given = calibrate::parse_table("film", csv, calibrate::NoRows::refused);
+  const std::lock_guard lock(saving_);
+  auto table = calibrate::parse_table(sheet.name(), sheet.text(), calibrate::NoRows::allowed);
+  const std::string sample(calibrate::kSampleColumn);
+  std::erase_if(table.rows, [&](const calibrate::TableRow& row) {
+    const std::string own = cell_of(table, row, sample);
+    return !own.empty() && std::ranges::any_of(given.rows, [&](const calibrate::TableRow& other) {
+      return cell_of(given, other, sample) == own;
+    });
+  });
+  const auto columns = columns_read(calibrate::bench_test_named(sheet.entry->sheet.test), given);
+  for (const std::string& column : columns) {
+    if (!table.column(column)) add_column(table, column);
+  }
+  for (const calibrate::TableRow& row : given.rows) {
+    std::vector<std::string> cells;
+    for (const std::string& column : table.columns) {
+      const bool is_read = std::ranges::find(columns, column) != columns.end();
+      cells.push_back(is_read ? cell_of(given, row, column) : "");
+    }
+    table.rows.push_back({.line = 0, .cells = std::move(cells)});
+  }
+  const std::string text = csv_text(table);
+  const auto checked = calibrate::readings_of_table(
+      *sheet.entry, sheet.described, sheet.name(),
+      calibrate::parse_table(sheet.name(), text, calibrate::NoRows::allowed),
+      calibrate::NoRows::allowed);
+  base::write_whole_file(sheet.file, text);
+  return {{"sheet", sheet.file.lexically_relative(folder_).generic_string()},
+          {"rows", given.rows.size()},
+          {"notes", checked.notes}};
 }
 
 Json StudyFolder::save_sheet(const std::string& name, const std::string& experiment,

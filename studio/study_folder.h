@@ -4,9 +4,8 @@
 #include <mutex>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "dem/study/study.h"
+#include "studio/json_answer.h"
 
 namespace repose::studio {
 
@@ -19,8 +18,6 @@ namespace repose::studio {
 /// for a name that is not there.
 class StudyFolder {
  public:
-  using Json = nlohmann::ordered_json;
-
   explicit StudyFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -44,8 +41,17 @@ class StudyFolder {
   /// @throws base::InputError  the file is of another version by now, or cannot be written.
   Json save_sheet(const std::string& name, const std::string& experiment, const Json& cells);
 
+  /// Puts rows of a table that a film gave below the sheet's own; those of the same sample are
+  /// replaced. Columns that the sheet's test reads and the sheet lacks are added. Answers the
+  /// `sheet`'s name, how many `rows` were added, and `notes`.
+  /// @throws base::InputError  the study names no sheet, the sheet would be at fault, as with
+  ///   another height of fall than the study's, or it cannot be written: nothing is.
+  Json add_readings(const std::string& name, const std::string& experiment, const std::string& csv);
+
   /// What `numbers` of the protocols, {"experiment.drop": {"height_mm": "500"}}, would be: `faults`
   /// [{`key`, `text`}], the key null where it is of none of them. An empty text takes a key out.
+  /// Likewise of the coefficients that are sought: {"contact.particle_wall.restitution": {"max":
+  /// "0.8"}}.
   Json checked_numbers(const std::string& name, const Json& numbers) const;
   /// The same, and writes them; as save_sheet().
   Json save_numbers(const std::string& name, const Json& numbers);
@@ -60,21 +66,21 @@ class StudyFolder {
 
 /// What is asked for a new study: `grains`, `plates`, `parts`, `experiments`, each with what it
 /// says unless it is said otherwise.
-nlohmann::ordered_json new_study_form();
+Json new_study_form();
 
 /// What a study of which that was said would be: `command`, `faults` [{`field`, `text`}], `title`,
 /// `assumed`, `sheets`, `coefficients`, `usual`.
-nlohmann::ordered_json drafted_study(const std::filesystem::path& folder,
-                                     const nlohmann::ordered_json& said);
+Json drafted_study(const std::filesystem::path& folder, const Json& said);
 
 /// Writes it as `repose new` does. @returns  the same, and `study`, its name
 /// @throws base::InputError  there is a fault, or it cannot be written.
-nlohmann::ordered_json start_study(const std::filesystem::path& folder,
-                                   const nlohmann::ordered_json& said);
+Json start_study(const std::filesystem::path& folder, const Json& said);
 
 /// @throws base::InputError  what was sent is not made from this text: its `version` is another.
-void require_version(const nlohmann::ordered_json& sent, const std::string& text,
-                     const std::string& name);
+void require_version(const Json& sent, const std::string& text, const std::string& name);
+
+/// The coefficients that a study seeks: [{`name`, `value`, `min`, `max`}]; no value: null.
+Json sought_json(const dem::Study& study);
 
 /// Whether a file is in a folder, once links are followed.
 bool is_within(const std::filesystem::path& file, const std::filesystem::path& folder);

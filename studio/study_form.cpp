@@ -16,8 +16,6 @@
 namespace repose::studio {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// "Fix:" advises what the page has a field for, and no option of the command line.
 std::string text_of(const base::Fault& fault) { return base::with_names(fault.text()); }
 

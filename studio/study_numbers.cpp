@@ -20,7 +20,6 @@ namespace repose::studio {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = StudyFolder::Json;
 
 /// What is to become of a study's numbers, and what is wrong with them.
 struct Numbers {
@@ -28,7 +27,13 @@ struct Numbers {
   Json faults = Json::array();
 };
 
+/// Of a protocol, or of a coefficient that is sought.
 bool has_key(const dem::Study& study, const std::string& table, const std::string& key) {
+  const Json sought = sought_json(study);
+  const auto is_sought = [&](const Json& one) {
+    return one.at("name") == table && one.contains(key) && key != "name" && !one.at(key).is_null();
+  };
+  if (std::ranges::any_of(sought, is_sought)) return true;
   return std::ranges::any_of(study.experiments, [&](const auto& described) {
     const auto& [experiment, how] = described;
     if (fmt::format("experiment.{}", experiment->name) != table) return false;

@@ -16,8 +16,6 @@
 namespace repose::studio {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// Reads one value; each fault of it names its key.
 class Reader {
  public:

@@ -270,12 +270,15 @@ void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& prot
     const double meant = protocol_value(entry, protocol, key);
     for (const BenchReading& reading : readings) {
       const double value = reading.values[index];
-      if (std::abs(value - meant) <= kSameSetting * meant) continue;
+      const auto half_width = reading.optional.find(uncertainty_column(column));
+      const double uncertainty = half_width == reading.optional.end() ? 0 : half_width->second;
+      if (std::abs(value - meant) <= kSameSetting * meant + uncertainty) continue;
       rows.add(
           {.where = reading.place,
            .value = fmt::format("{0} = {1:g}, and the study has {2} = {3:g} in [experiment.{4}]",
                                 column, value, key, meant, entry.name),
-           .rule = fmt::format("the same within {0:g} %", 100 * kSameSetting),
+           .rule = fmt::format("the same within {0:g} %{1}", 100 * kSameSetting,
+                               uncertainty > 0 ? fmt::format(" and ± {:.2g}", uncertainty) : ""),
            .fix = fmt::format(
                "write {0} = {1:g} there if all readings were taken so, or leave the reading out.",
                key, value)});

@@ -93,6 +93,12 @@ void add_frame_rate(const calibrate::MeasuredPicture& picture, Options& options)
 
 }  // namespace
 
+std::string scale_options(const vision::ScaleOptions& scale) {
+  Options options;
+  add_scale(scale, options);
+  return options.text();
+}
+
 std::string measure_command(const MeasuredPicture& picture) {
   Options options;
   add_measuring(picture.told.measuring, options);

@@ -11,6 +11,9 @@ namespace repose::calibrate {
 /// The command line that measures the file with all that was said of it, as a shell takes it.
 std::string measure_command(const MeasuredPicture& picture);
 
+/// Where millimetres come from, as options of a command, each with a space before it.
+std::string scale_options(const vision::ScaleOptions& scale);
+
 /// For the report, with its command.
 report::MeasuredPhotograph photograph_of(const MeasuredPicture& picture);
 

@@ -129,6 +129,9 @@ class LiggghtsCases : public dem::CasePeer {
   explicit LiggghtsCases(std::string version) : version_(std::move(version)) {}
 
   std::string title() const override { return version_; }
+  std::string changes_to(const SimulationSetup& setup) const override {
+    return changed_restitutions(setup.contacts);
+  }
 
   std::vector<dem::Collision> collide_each(
       const SimulationSetup& setup, const std::vector<dem::Meeting>& meetings) const override {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/input_error.h"
 #include "calibrate/export/liggghts_decks.h"
@@ -53,6 +55,24 @@ double restitution_of(const PairCoefficients& pair) {
   if (pair.restitution_exponent != 0) throw CannotRun("LIGGGHTS has no restitution by speed");
   return liggghts_target()->restitution(pair.restitution).value;
 }
+
+}  // namespace
+
+std::string changed_restitutions(const dem::ContactTable& contacts) {
+  std::set<std::string> changes;
+  for (int a = 0; a < contacts.size(); ++a) {
+    for (int b = a; b < contacts.size(); ++b) {
+      const double ours = contacts.pair(a, b).restitution;
+      const RestitutionCounterpart theirs = liggghts_target()->restitution(ours);
+      if (theirs.value == ours) continue;
+      changes.insert(fmt::format("with a restitution of {:g} in place of {:g}: {}", theirs.value,
+                                 ours, theirs.limits));
+    }
+  }
+  return fmt::format("{}", fmt::join(changes, " "));
+}
+
+namespace {
 
 std::string property_commands(const dem::ContactTable& contacts) {
   const auto value = [](auto member) { return [member](const auto& of) { return of.*member; }; };

@@ -31,6 +31,9 @@ struct DeckOptions {
 ///   those of LIGGGHTS.
 std::string deck_of(const dem::SimulationSetup& setup, const DeckOptions& options);
 
+/// Restitutions that the deck has other values for, for people; empty: none.
+std::string changed_restitutions(const dem::ContactTable& contacts);
+
 /// The command that sets or renews gravity.
 std::string gravity_command(const dem::Vector& gravity);
 

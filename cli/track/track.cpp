@@ -1,7 +1,6 @@
 #include "cli/track/track.h"
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -10,70 +9,32 @@
 
 #include <fmt/format.h>
 
-#include "base/input_error.h"
-#include "base/memory.h"
 #include "cli/common/batch.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_list.h"
 #include "cli/common/picture_options.h"
 #include "cli/common/terminal.h"
-#include "cli/track/track_output.h"
 #include "cli/track/track_table.h"
-#include "vision/drawing/track_overlays.h"
 #include "vision/files/file_list.h"
 
 namespace repose::cli {
 
 namespace {
 
-vision::Picture overlay_of(const TrackedFilm& film, const std::string& title) {
-  switch (film.filmed) {
-    case vision::Filmed::drop:
-      return vision::draw_drop_overlay(film.drop, title);
-    case vision::Filmed::roll:
-      return vision::draw_roll_overlay(film.roll, title);
-    case vision::Filmed::tilt:
-      break;
-  }
-  return vision::draw_tilt_overlay(film.tilt, title);
-}
-
-void draw(const TrackPlan& plan, std::size_t index, TrackedFilm& tracked) {
-  try {
-    const std::string title = plan.videos[index].filename().string();
-    vision::write_picture(plan.overlays[index], overlay_of(tracked, title));
-  } catch (const base::InputError& error) {
-    tracked.overlay_error = error.what();
-  }
-}
-
 TrackedFilm track_one(const TrackPlan& plan, std::size_t index,
                       const std::function<void(double)>& progress) {
-  TrackedFilm tracked;
-  tracked.file = plan.videos[index].string();
-  tracked.filmed = plan.filmed;
-  try {
-    vision::TrackOptions options{.scale = plan.scale.scale,
-                                 .released_mm = plan.released_mm,
-                                 .draws_strobe = !plan.overlays.empty(),
-                                 .progress = progress};
-    if (plan.scale.finds_board) {
-      options.board = vision::BoardPlacing{plan.scale.square_mm, plan.scale.board_offset_mm};
-    }
-    static_cast<vision::FilmTrack&>(tracked) = vision::track_film(
-        plan.filmed, {plan.videos[index], plan.frames_per_s, plan.scale.lens}, options);
-    if (!plan.overlays.empty()) draw(plan, index, tracked);
-    drop_strobe(tracked);
-  } catch (const base::InputError& error) {
-    tracked.error = base::naming_file(tracked.file, error.what());
-  } catch (const std::exception& error) {
-    tracked.is_internal_error = !base::is_out_of_memory(error);
-    tracked.error = tracked.is_internal_error
-                        ? base::naming_file(tracked.file, error.what())
-                        : base::no_memory(tracked.file, "a smaller film, or fewer --threads");
+  calibrate::FilmTracking tracking{.film = {plan.videos[index], plan.frames_per_s, plan.scale.lens},
+                                   .filmed = plan.filmed,
+                                   .scale = plan.scale,
+                                   .released_mm = plan.released_mm,
+                                   .progress = progress};
+  if (!plan.overlays.empty()) {
+    tracking.take_overlay = [&](const vision::Picture& overlay) {
+      vision::write_picture(plan.overlays[index], overlay);
+    };
   }
-  return tracked;
+  return calibrate::tracked_film(tracking);
 }
 
 }  // namespace
@@ -138,8 +99,11 @@ ExitCode run_track(const TrackArguments& arguments) {
       std::any_of(films.begin(), films.end(), [](const auto& film) { return film.error.empty(); });
   if (any_was_read)
     outputs.show(track_table(films, plan.filmed, columns_of(stdout), wants_colour(stdout)));
-  outputs.add(arguments.json_file, track_json(films));
-  outputs.add(arguments.csv_file, track_csv(films, plan));
+  outputs.add(arguments.json_file, calibrate::track_json(films));
+  outputs.add(arguments.csv_file,
+              calibrate::track_csv(films, plan.filmed,
+                                   plan.tells_all_bounces ? calibrate::BouncesToTell::all
+                                                          : calibrate::BouncesToTell::first));
   outputs.write_files();
   print_errors(films);
   outputs.write();

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/measured/tracked_film.h"
 #include "cli/common/command.h"
 #include "cli/common/output.h"
 #include "cli/common/picture_options.h"
-#include "vision/track/film_track.h"
 
 namespace repose::cli {
 
@@ -48,14 +48,7 @@ struct TrackPlan {
 /// Reads and checks all that was typed, also whether the output can be written. All errors at once.
 TrackPlan plan_track(const TrackArguments& arguments);
 
-/// Its track is without the strobe picture, which is large.
-struct TrackedFilm : vision::FilmTrack {
-  std::string file;
-  std::string error;    ///< why it could not be read; empty: its track says
-  std::string copy_of;  ///< an earlier film of the same bytes; empty: it is no copy
-  bool is_internal_error = false;
-  std::string overlay_error;  ///< why there is no overlay
-};
+using calibrate::TrackedFilm;
 
 /// Tracks the plan's films, several at a time; in the plan's order, and the same at any number of
 /// threads. Stops in the middle of a film when `is_interrupted`; the result is then worth nothing.

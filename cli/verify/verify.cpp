@@ -46,8 +46,8 @@ class PeerResults {
     return nullptr;
   }
 
-  const std::string& reason_against(const std::string& name) const {
-    return std::ranges::find(cases_, name, &dem::PeerCase::name)->cannot;
+  const dem::PeerCase& case_of(const std::string& name) const {
+    return *std::ranges::find(cases_, name, &dem::PeerCase::name);
   }
 
  private:
@@ -118,6 +118,11 @@ std::string comparison_table(const Results& results, const PeerResults& peer, in
   text += fmt::format("other: {}; {} of its {} numbers are within the tolerances of repose\n",
                       peer.title(), near, compared);
   for (const dem::PeerCase& each : peer.cases()) {
+    for (const std::string& change : each.changes) {
+      text += paragraph("run there otherwise: ", fmt::format("{}: {}", each.name, change), columns);
+    }
+  }
+  for (const dem::PeerCase& each : peer.cases()) {
     if (each.cannot.empty()) continue;
     text += paragraph("not run there: ", fmt::format("{}: {}", each.name, each.cannot), columns);
   }
@@ -130,8 +135,9 @@ nlohmann::ordered_json peer_json(const dem::CaseResult& ours, const PeerResults&
     json["measured"] = theirs->measured;
     json["error"] = theirs->measured - theirs->expected;
     json["holds"] = theirs->holds;
+    json["changes"] = peer.case_of(ours.name).changes;
   } else {
-    json["cannot"] = peer.reason_against(ours.name);
+    json["cannot"] = peer.case_of(ours.name).cannot;
   }
   return json;
 }

@@ -39,12 +39,29 @@ const ConfigValue* table_in(const ConfigValue& config, std::string_view path) {
                           .fix = "change it in the file, with a text editor."});
 }
 
+/// Where the value of a key stands in an inline table of that line; npos: not found.
+std::size_t inline_value_at(std::string_view text, std::size_t line, std::size_t end,
+                            const std::string& key, const std::string& shown) {
+  const std::string_view table = text.substr(0, end);
+  for (std::size_t at = table.find('{', line); at != std::string_view::npos;
+       at = table.find(key, at + 1)) {
+    if (table.substr(at, key.size()) != key) continue;
+    const bool is_whole = table.find_last_of("{, \t", at - 1) == at - 1;
+    const std::size_t equals = table.find_first_not_of(" \t", at + key.size());
+    if (!is_whole || equals == std::string_view::npos || table[equals] != '=') continue;
+    const std::size_t value = table.find_first_not_of(" \t", equals + 1);
+    if (value != std::string_view::npos && table.substr(value, shown.size()) == shown) return value;
+  }
+  return std::string::npos;
+}
+
 std::string with_number(std::string text, const NumberEdit& edit) {
   StudyErrors errors;
   const ConfigValue config = parse_config("study", text, {}, errors);
   errors.throw_if_any();
   const ConfigValue* table = table_in(config, edit.table);
-  if (table == nullptr || table->kind != ConfigValue::Kind::table || table->is_inline) {
+  if (table == nullptr || table->kind != ConfigValue::Kind::table ||
+      (table->is_inline && table->find(edit.key) == nullptr)) {
     refuse_edit(edit, fmt::format("cannot be set: there is no [{}]", edit.table));
   }
   const ConfigValue* value = table->find(edit.key);
@@ -65,12 +82,14 @@ std::string with_number(std::string text, const NumberEdit& edit) {
   const std::size_t line = begin_of_line(text, value->place.line);
   const std::size_t end = std::min(text.find('\n', line), text.size());
   const std::size_t equals = text.find('=', line);
-  const std::size_t at = text.find(value->shown, equals);
+  const std::size_t at = table->is_inline ? inline_value_at(text, line, end, edit.key, value->shown)
+                                          : text.find(value->shown, equals);
   const bool is_number =
       value->kind == ConfigValue::Kind::number || value->kind == ConfigValue::Kind::integer;
   if (!is_number || at == std::string::npos || at >= end) {
     refuse_edit(edit, fmt::format("is {}, and no number in a line of its own", value->shown));
   }
+  if (edit.number.empty() && table->is_inline) refuse_edit(edit, "cannot be left out");
   if (!edit.number.empty()) return text.replace(at, value->shown.size(), edit.number);
   return text.erase(line, end + 1 - line);
 }

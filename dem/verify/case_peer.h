@@ -65,6 +65,8 @@ class CasePeer {
   /// As Trial::follow, with the time step of `setup`.
   virtual Path follow(const SimulationSetup& setup, const std::vector<Grain>& grains,
                       double duration_s, int every_steps) const = 0;
+  /// For people: which values of a scene it takes others for, and which; empty: none.
+  virtual std::string changes_to(const SimulationSetup& /*setup*/) const { return {}; }
 };
 
 }  // namespace repose::dem

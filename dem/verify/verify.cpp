@@ -29,6 +29,39 @@ std::vector<CaseResult> run(const VerifyCase& which, const CasePeer* peer = null
   return results;
 }
 
+/// Passes scenes on, and notes what the peer takes otherwise in them.
+class NotedPeer : public CasePeer {
+ public:
+  NotedPeer(const CasePeer& peer, std::vector<std::string>& changes)
+      : peer_(peer), changes_(changes) {}
+
+  std::string title() const override { return peer_.title(); }
+  std::string changes_to(const SimulationSetup& setup) const override {
+    return peer_.changes_to(setup);
+  }
+  std::vector<Collision> collide_each(const SimulationSetup& setup,
+                                      const std::vector<Meeting>& meetings) const override {
+    note(setup);
+    return peer_.collide_each(setup, meetings);
+  }
+  Path follow(const SimulationSetup& setup, const std::vector<Grain>& grains, double duration_s,
+              int every_steps) const override {
+    note(setup);
+    return peer_.follow(setup, grains, duration_s, every_steps);
+  }
+
+ private:
+  void note(const SimulationSetup& setup) const {
+    std::string change = changes_to(setup);
+    if (!change.empty() && std::ranges::find(changes_, change) == changes_.end()) {
+      changes_.push_back(std::move(change));
+    }
+  }
+
+  const CasePeer& peer_;
+  std::vector<std::string>& changes_;
+};
+
 }  // namespace
 
 std::vector<std::string> case_names() {
@@ -53,10 +86,12 @@ std::vector<PeerCase> run_cases_in(const CasePeer& peer, const ProgressCallback&
   const std::vector<VerifyCase> cases = all_cases();
   std::vector<PeerCase> made;
   for (const VerifyCase& each : cases) {
-    PeerCase one{.name = each.name, .results = {}, .cannot = {}};
+    PeerCase one{.name = each.name};
     try {
-      one.results = run(each, &peer);
+      const NotedPeer noted(peer, one.changes);
+      one.results = run(each, &noted);
     } catch (const CannotRun& reason) {
+      one.changes.clear();
       one.cannot = reason.what();
     }
     made.push_back(std::move(one));

@@ -26,8 +26,9 @@ struct PeerCase {
   std::string name;
   /// As run_case() has them, in the same order; of other programs, whether they hold is no verdict
   /// on them: the tolerances are those of our own engine.
-  std::vector<CaseResult> results;
-  std::string cannot;  ///< or why it cannot run it
+  std::vector<CaseResult> results = {};
+  std::string cannot = {};                ///< or why it cannot run it
+  std::vector<std::string> changes = {};  ///< values that it took others for, each once
 };
 
 /// Hears after each case how many of them are done.

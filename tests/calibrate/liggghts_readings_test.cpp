@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "base/input_error.h"
+#include "calibrate/simulators/liggghts_scene.h"
+#include "dem/contact/contact_table.h"
 #include "tests/support/error_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -110,6 +112,16 @@ TEST(DumpedGrains, AreRefusedWhereTheFileIsCutShort) {
   EXPECT_THAT(error(dump(1, ".1 .2 .3 1 0\n")), HasSubstr("0 rows of 1"));
   EXPECT_THAT(error(dump(1, ".1 nan .3 1 0 0 0\n")), HasSubstr("0 rows of 1"));
   EXPECT_THAT(error(""), HasSubstr("cut short"));
+}
+
+TEST(LiggghtsDecks, SayWhichRestitutionTheyHaveAnotherValueFor) {
+  const auto table = [](double restitution) {
+    const dem::Material wood{
+        .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e7, .poisson_ratio = .3};
+    return dem::ContactTable({wood}, {{.restitution = restitution}}, dem::RollingModel::none);
+  };
+  EXPECT_THAT(changed_restitutions(table(.05)), HasSubstr("0.0501 in place of 0.05"));
+  EXPECT_THAT(changed_restitutions(table(.06)), IsEmpty());
 }
 
 }  // namespace

@@ -36,6 +36,19 @@ TEST(StudyEdit, ANewKeyComesBelowTheHeadingOfItsTable) {
   EXPECT_EQ(with_numbers("[a]", {{"a", "b", "1"}}), "[a]\nb = 1\n");
 }
 
+TEST(StudyEdit, ANumberOfAnInlineTableIsReplacedWhereItStands) {
+  const std::string text =
+      "[contact.wall]\n# min = 1\nrest = { value = 0.2,min=0.2, max = 0.2 }  # min = 0.2\n";
+  const auto with = [&](const char* key, const char* number) {
+    return with_numbers(text, {{"contact.wall.rest", key, number}});
+  };
+  EXPECT_THAT(with("min", "0.1"), HasSubstr("{ value = 0.2,min=0.1, max = 0.2 }  # min = 0.2\n"));
+  EXPECT_THAT(with("max", "0.75"), HasSubstr("{ value = 0.2,min=0.2, max = 0.75 }"));
+  EXPECT_THAT(with("value", "0.5"), HasSubstr("{ value = 0.5,min=0.2"));
+  EXPECT_THROW(with("min", ""), base::InputError);
+  EXPECT_THROW(with("step", "1"), base::InputError);
+}
+
 TEST(StudyEdit, AnEmptyNumberTakesTheLineOut) {
   EXPECT_THAT(edited({"experiment.drop", "grains", ""}),
               HasSubstr("the plate\n\n[experiment.heap]"));

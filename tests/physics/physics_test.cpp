@@ -84,6 +84,9 @@ class MirrorPeer : public CasePeer {
               double /*duration_s*/, int /*every_steps*/) const override {
     throw CannotRun("a mirror stands still");
   }
+  std::string changes_to(const SimulationSetup& setup) const override {
+    return setup.contacts.pair(0, 0).restitution < 1 ? "a mirror loses no speed" : "";
+  }
 };
 
 TEST(VerifyCases, AnotherProgramIsGivenTheSameScenes) {
@@ -115,6 +118,17 @@ TEST(VerifyCases, WhatAnotherProgramCannotRunSaysWhy) {
   EXPECT_EQ(cannot("tumbling free block"), "the case does more with our engine than to look on");
   EXPECT_EQ(cannot("T7 opposite spins"), "");
   for (const PeerCase& each : cases) EXPECT_NE(each.results.empty(), each.cannot.empty());
+}
+
+TEST(VerifyCases, WhatAnotherProgramTakesOtherwiseIsSaidOnceOfEachCaseThatItRuns) {
+  const std::vector<PeerCase> cases = run_cases_in(MirrorPeer());
+  const auto changes = [&cases](const std::string& name) {
+    return std::ranges::find(cases, name, &PeerCase::name)->changes;
+  };
+  const std::vector<std::string> once = {"a mirror loses no speed"};
+  EXPECT_EQ(changes("T3 restitution, cast iron"), once);
+  EXPECT_EQ(changes("T1 two spheres, glass"), std::vector<std::string>());
+  EXPECT_EQ(changes("bounce heights"), std::vector<std::string>());
 }
 
 }  // namespace

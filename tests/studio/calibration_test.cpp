@@ -7,6 +7,8 @@
 #include <thread>
 
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/folder_lock.h"
 #include "calibrate/experiment/run_store.h"
@@ -18,8 +20,6 @@ namespace repose::studio {
 namespace {
 
 using test::ServedFolder;
-using Json = ServedFolder::Json;
-using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -123,14 +123,88 @@ TEST_F(StudioCalibrations, WhatIsStoppedGoesOnInAnotherStudio) {
   EXPECT_THAT(notes.dump(), HasSubstr("simulations were taken from"));
 }
 
-TEST_F(StudioCalibrations, TheStudiosEndEndsWhatItStarted) {
+TEST_F(StudioCalibrations, TheStudiosEndEndsWhatItStartedAndTheNextGoesOn) {
+  studio_.post("/api/studies", Json{{"study", "beans"}, {"experiments", {"drop", "tilt"}}});
+  fill_in("beans");
   studio_.post(kTask, {});
+  studio_.post(with_study(kTask, "beans"), {});
   wait_for_runs();
   studio_.end();
   EXPECT_FALSE(base::is_locked_by_another(
       calibrate::lock_file_in(studio_.folder.path() / "peas_calibration")));
   studio_.serve();
-  EXPECT_THAT(studio_.get(kState).at("state").get<std::string>(), AnyOf("unfinished", "finished"));
+  // Those that waited, too.
+  EXPECT_EQ(ended("beans").at("state"), "done");
+  EXPECT_EQ(studio_.get(kState).at("state"), "finished");
+  studio_.end();
+  studio_.serve();
+  EXPECT_THAT(studio_.get("/api/tasks").at("tasks"), IsEmpty());
+}
+
+/// `repose studio` as a process of its own, which may be killed.
+class StudioProcess {
+ public:
+  explicit StudioProcess(const std::filesystem::path& folder) {
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      const std::string program = testing::program().string(), name = folder.string();
+      if (testing::enter(folder.string(), logs_.out, logs_.err)) {
+        ::execl(program.c_str(), program.c_str(), "studio", name.c_str(), "--no-browser", nullptr);
+      }
+      ::_exit(127);
+    }
+  }
+  ~StudioProcess() { kill(); }
+  StudioProcess(const StudioProcess&) = delete;
+  StudioProcess& operator=(const StudioProcess&) = delete;
+  StudioProcess(StudioProcess&&) = delete;
+  StudioProcess& operator=(StudioProcess&&) = delete;
+
+  /// Asks it to calibrate.
+  void calibrate() const {
+    std::string address;
+    for (int k = 0; k < 500 && !address.ends_with('\n'); ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      address = testing::text_of(logs_.out);
+    }
+    const std::size_t token = address.find("token=");
+    ASSERT_NE(token, std::string::npos) << testing::text_of(logs_.err);
+    const int port = std::stoi(address.substr(std::string("http://127.0.0.1:").size()));
+    httplib::Client client("127.0.0.1", port);
+    const std::string key = address.substr(token, address.find('\n') - token);
+    const auto answer = client.Post(std::string(kTask) + '&' + key);
+    ASSERT_TRUE(answer && answer->status == 200);
+  }
+  void kill() {
+    if (pid_ <= 0) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+    pid_ = 0;
+  }
+
+ private:
+  testing::Logs logs_;
+  pid_t pid_ = 0;
+};
+
+TEST_F(StudioCalibrations, AKilledStudioLeavesNothingAtWorkAndTheNextGoesOn) {
+  const auto lock = calibrate::lock_file_in(studio_.folder.path() / "peas_calibration");
+  const auto waits_until = [](const auto& is_so) {
+    for (int k = 0; k < 3000 && !is_so(); ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return is_so();
+  };
+  studio_.end();
+  StudioProcess other(studio_.folder.path());
+  other.calibrate();
+  ASSERT_TRUE(waits_until([&] { return base::is_locked_by_another(lock); }));
+  other.kill();
+  EXPECT_TRUE(waits_until([&] { return !base::is_locked_by_another(lock); }));
+  if (std::filesystem::exists(studio_.folder.path() / "peas_calibration/result.json"))
+    GTEST_SKIP() << "it was too fast";
+  studio_.serve();
+  EXPECT_EQ(ended().at("state"), "done");
 }
 
 TEST_F(StudioCalibrations, AKilledOneIsToldAndGoesOn) {

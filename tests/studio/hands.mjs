@@ -89,16 +89,16 @@ export const choose = async (page, name) => {
 };
 
 // Where a point of the picture lies on the screen.
-export const onScreen = (page, x, y) => page.$eval('.viewer svg', (svg, px, py) => {
+export const onScreen = (page, x, y, within = '.viewer svg') => page.$eval(within, (svg, px, py) => {
   const at = new DOMPoint(px, py).matrixTransform(svg.getScreenCTM());
   return [at.x, at.y];
 }, x, y);
 
-export const drag = async (page, from, to) => {
-  await atRest(await page.$('.viewer svg'));
-  await page.mouse.move(...await onScreen(page, ...from));
+export const drag = async (page, from, to, within = '.viewer svg') => {
+  await atRest(await page.$(within));
+  await page.mouse.move(...await onScreen(page, ...from, within));
   await page.mouse.down();
-  await page.mouse.move(...await onScreen(page, ...to), {steps: 6});
+  await page.mouse.move(...await onScreen(page, ...to, within), {steps: 6});
   await page.mouse.up();
 };
 
@@ -109,7 +109,7 @@ const serious = async (page) => {
     .map(({id, nodes}) => `${id}: ${nodes.map(({html}) => html.slice(0, 120)).join(' | ')}`);
 };
 
-// On a desk and on a telephone, light and dark.
+// On a desk and on a telephone, light and dark: all of it, and as a figure of a document the window alone.
 export const lookAt = async (page, name, pictures) => {
   for (const scheme of ['light', 'dark']) {
     await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);
@@ -117,7 +117,9 @@ export const lookAt = async (page, name, pictures) => {
       await page.setViewport({width, height: 900});
       assert.equal(await page.evaluate(() => document.documentElement.scrollWidth > innerWidth), false, `${name} is wider than ${width} px`);
       assert.deepEqual(await serious(page), [], `${name}, ${scheme}, ${width} px`);
-      if (pictures) await page.screenshot({path: join(pictures, `${name}_${scheme}_${width}.png`), fullPage: true});
+      const path = join(pictures ?? '', `${name}_${scheme}_${width}`);
+      if (pictures) await page.screenshot({path: `${path}.png`, fullPage: true});
+      if (pictures) await page.screenshot({path: `${path}.jpg`, type: 'jpeg', quality: 85});
     }
   }
   await page.emulateMediaFeatures([]);

@@ -6,9 +6,9 @@
 #include <thread>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include "studio/http.h"
+#include "studio/json_answer.h"
 #include "studio/server.h"
 #include "tests/support/temporary_folder.h"
 
@@ -17,8 +17,6 @@ namespace repose::studio::test {
 /// A studio on a folder of its own, and a page that has its key.
 class ServedFolder {
  public:
-  using Json = nlohmann::ordered_json;
-
   explicit ServedFolder(const std::filesystem::path& program = {}) : program_(program) { serve(); }
   ~ServedFolder() { end(); }
   ServedFolder(const ServedFolder&) = delete;

@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 #include "base/input_error.h"
@@ -34,7 +33,6 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-using Json = nlohmann::ordered_json;
 
 /// While it lives, no file of this process grows beyond a few bytes: a disk that is full.
 class FullDisk {

@@ -92,6 +92,19 @@ const changeProtocol = async (page, folder) => {
   assert.match(readFileSync(join(folder, 'peas.toml'), 'utf8'), /\nrate_deg_s = 3\n/);
 };
 
+const changeBounds = async (page, folder) => {
+  await (await page.$("[aria-label='bounds'] summary")).click();
+  const max = "input[aria-label='restitution, particle–wall: max of bounds']";
+  await fill(page, max, '0.01');
+  await page.waitForSelector("[aria-label='bounds'] .fault");
+  await fill(page, max, '0.85');
+  await until(page, () => !document.querySelector("[aria-label='bounds'] .fault"));
+  await (await page.$("[aria-label='bounds'] button")).click();
+  await until(page, () => document.querySelector("[aria-label='bounds'] [role=status]").textContent.includes('saved in'));
+  assert.match(readFileSync(join(folder, 'peas.toml'), 'utf8'), /\nrestitution = \{ value = [0-9.]+, min = [0-9.]+, max = 0.85 \}/);
+  await lookAt(page, 'study_bounds', pictures);
+};
+
 const calibrate = async (browser, page, address) => {
   await click(page, '3. Calibration');
   await click(page, 'How long would it take?');
@@ -153,6 +166,7 @@ const sit = async (browser, folder) => {
   await startStudy(page, folder);
   await fillSheets(page, folder);
   await changeProtocol(page, folder);
+  await changeBounds(page, folder);
   await plan(page);
   const {again, errors: later} = await calibrate(browser, page, address);
   await takeAway(browser, again);
@@ -160,7 +174,9 @@ const sit = async (browser, folder) => {
   assert.equal(await end(studio, 'SIGINT'), 0);
 };
 
-const folder = mkdtempSync(join(tmpdir(), 'repose-studio-'));
+const above = mkdtempSync(join(tmpdir(), 'repose-studio-'));
+const folder = join(above, 'peas_on_wood');
+mkdirSync(folder);
 if (pictures) mkdirSync(pictures, {recursive: true});
 const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
 try {
@@ -168,5 +184,5 @@ try {
 } finally {
   await endAll();
   await browser.close();
-  rmSync(folder, {recursive: true});
+  rmSync(above, {recursive: true});
 }

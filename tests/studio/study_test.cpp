@@ -10,7 +10,6 @@ namespace repose::studio {
 namespace {
 
 using test::ServedFolder;
-using Json = ServedFolder::Json;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -247,6 +246,23 @@ TEST_F(StudioStudies, StrangersAreNotAnswered) {
   EXPECT_EQ(stranger.Put(kDrops, body, "application/json")->status, 403);
   EXPECT_EQ(stranger.Put("/api/numbers?study=peas.toml", body, "application/json")->status, 403);
   EXPECT_EQ(stranger.Delete("/api/tasks?study=peas.toml&task=calibrate")->status, 403);
+}
+
+TEST_F(StudioStudies, BoundsOfWhatIsSoughtAreChangedInTheStudy) {
+  start_peas();
+  const Json study = studio_.get("/api/study?study=peas.toml");
+  const std::string name = study.at("sought").at(0).at("name");
+  EXPECT_EQ(name, "contact.particle_wall.restitution");
+  const auto with = [&](const char* key, const char* number) {
+    return Json{{"numbers", {{name, {{key, number}}}}}, {"version", study.at("version")}};
+  };
+  const std::string before = studio_.text("peas.toml");
+  // The upper bound below the lower one.
+  EXPECT_FALSE(studio_.put("/api/numbers?study=peas.toml", with("max", "0.001")).at("saved"));
+  studio_.put("/api/numbers?study=peas.toml", with("step", "1"), 400);
+  EXPECT_EQ(studio_.text("peas.toml"), before);
+  EXPECT_TRUE(studio_.put("/api/numbers?study=peas.toml", with("max", "0.85")).at("saved"));
+  EXPECT_EQ(studio_.get("/api/study?study=peas.toml").at("sought").at(0).at("max"), .85);
 }
 
 }  // namespace

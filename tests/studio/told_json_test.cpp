@@ -12,7 +12,6 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-using Json = nlohmann::ordered_json;
 
 vision::PictureSettings all_that_can_be_told() {
   vision::PictureSettings told;

@@ -18,6 +18,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 /// Two drawn heaps beside each other.
@@ -114,6 +115,52 @@ TEST(Hints, AMaskSaysItAll) {
   const ReposeAngle result = measure_repose_angle(picture_of(faint), options);
   ASSERT_TRUE(result.angle_rad) << result.reason;
   EXPECT_NEAR(*result.angle_rad, *heap.mean_rad(), 0.5 * kDegree);
+}
+
+/// Grey, which says nothing, with a patch of one lightness.
+Picture patched_mask(const Picture& picture, const cv::Rect& patch, int lightness) {
+  cv::Mat3b mask(picture.height, picture.width, cv::Vec3b::all(128));
+  mask(patch).setTo(cv::Scalar::all(lightness));
+  return picture_of(mask);
+}
+
+TEST(Hints, AMaskMaySayOnlyWhatIsNoHeap) {
+  const auto heap = drawn("clean", 2, 640);
+  const ReposeAngle without = measure_repose_angle(heap.picture);
+  MeasureOptions options;
+  options.hints.mask = patched_mask(heap.picture, {10, 10, 120, 40}, 0);
+  const ReposeAngle with = measure_repose_angle(heap.picture, options);
+  ASSERT_TRUE(without.angle_rad && with.angle_rad) << with.reason;
+  EXPECT_EQ(with.status, without.status);
+  EXPECT_NEAR(*with.angle_rad, *without.angle_rad, 0.5 * kDegree);
+}
+
+TEST(Hints, AMaskMaySayOnlyWhatIsHeap) {
+  const TwoHeaps pair;
+  for (const auto* heap : {&pair.left, &pair.right}) {
+    const int shift = heap == &pair.left ? 0 : 640;
+    const int middle = static_cast<int>((heap->ground.from.x + heap->ground.to.x) / 2) + shift;
+    const int low = static_cast<int>(heap->ground.from.y - heap->height_px / 3);
+    MeasureOptions options;
+    options.hints.mask = patched_mask(pair.picture, {middle - 10, low - 10, 20, 20}, 255);
+    const ReposeAngle result = measure_repose_angle(pair.picture, options);
+    ASSERT_TRUE(result.crest) << result.reason;
+    EXPECT_EQ(result.crest->x > 640, heap == &pair.right);
+  }
+}
+
+TEST(Hints, WhatIsNoHeapDoesNotMakeTheRestOne) {
+  // A brick: nobody has said that it is a heap.
+  cv::Mat3b brick(480, 640, cv::Vec3b::all(200));
+  cv::fillPoly(
+      brick, std::vector<std::vector<cv::Point>>{{{120, 400}, {240, 200}, {400, 200}, {520, 400}}},
+      cv::Scalar(40, 60, 160));
+  MeasureOptions options;
+  options.hints.mask = patched_mask(picture_of(brick), {10, 10, 120, 40}, 0);
+  const auto unlike = Contains(Field(&Warning::code, "unlike_a_heap"));
+  EXPECT_THAT(measure_repose_angle(picture_of(brick), options).warnings, unlike);
+  options.hints.mask = patched_mask(picture_of(brick), {300, 300, 40, 40}, 255);
+  EXPECT_THAT(measure_repose_angle(picture_of(brick), options).warnings, Not(unlike));
 }
 
 TEST(Hints, APlaceOnTheHeapChoosesBetweenTwo) {

@@ -266,7 +266,7 @@ TEST(Judge, WhoSaysThatItIsAHeapIsBelieved) {
   EXPECT_LE(heap.judged().confidence, 0.5);
   JudgedHeap told;
   told.choice.likeness.filled = 0.8;
-  told.options.hints.keep = {{5, 5}};
+  told.choice.is_pointed_at = true;
   EXPECT_EQ(told.judged().status, MeasureStatus::ok);
 }
 

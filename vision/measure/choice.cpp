@@ -348,6 +348,7 @@ SelectedCandidate choose_reading(const WorkingPicture& work, const MeasureOption
     prefer_seen_feet(readings);
   }
   SelectedCandidate choice;
+  choice.is_pointed_at = !work.told.on_heap.empty();
   if (best_of(readings).score < kHardlyAnEdge && work.told.has_box) {
     choice.best = largest_of(readings);  // says best why there is no angle
     if (!choice.best.has_flank()) return choice;

@@ -30,6 +30,7 @@ struct SelectedFlanks {
 struct SelectedCandidate {
   Reading best;
   Disagreement disagreement;
+  bool is_pointed_at = false;          ///< a person has said where the heap is
   HeapPlausibility likeness;           ///< of the best, where it has a flank
   std::vector<SelectedFlanks> others;  ///< by the definitions other than the usual one
 

@@ -208,8 +208,7 @@ std::string reason_against_picture(const SelectedCandidate& choice, const Measur
         best.left.reason.empty() ? "none" : best.left.reason,
         best.right.reason.empty() ? "none" : best.right.reason);
   }
-  const bool is_pointed_at = !options.hints.keep.empty() || options.hints.mask.width > 0;
-  if (confidence < (is_pointed_at ? kMinToldConfidence : kMinConfidence)) {
+  if (confidence < (choice.is_pointed_at ? kMinToldConfidence : kMinConfidence)) {
     return fmt::format(
         "the heap's edge is too uncertain (confidence {:.2f} of 1). Fix: use a plain backdrop of a "
         "different colour from the grains, even light and a sharp picture; exclude other objects "
@@ -256,8 +255,7 @@ void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
 
 /// Why it may be no heap; empty when a person has said that it is one.
 std::string reason_to_doubt(const SelectedCandidate& choice, const MeasureOptions& options) {
-  const Hints& hints = options.hints;
-  if (hints.heap || !hints.keep.empty() || hints.mask.width > 0) return {};
+  if (options.hints.heap || choice.is_pointed_at) return {};
   return reason_against_heap(choice.likeness, choice.best.grain);
 }
 

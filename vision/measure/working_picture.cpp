@@ -154,6 +154,8 @@ void add_mask(UserHints& told, const Picture& picture, const WorkingPicture& wor
   cv::cvtColor(mat_of(picture), grey, cv::COLOR_BGR2GRAY);
   cv::resize(grey, grey, work.bgr.size(), 0, 0, cv::INTER_AREA);
   const auto add = [](cv::Mat1b& places, const cv::Mat1b& more) {
+    // A mask may say one of both alone.
+    if (cv::countNonZero(more) == 0) return;
     places = places.empty() ? more : cv::Mat1b(places | more);
   };
   add(told.on_heap, grey >= kLight);

@@ -284,6 +284,11 @@ std::string name_of(BenchTest test) { return test->name; }
 
 std::vector<ReadingColumn> columns_of(BenchTest test) { return test->columns; }
 
+std::string uncertainty_column(std::string_view column) {
+  const std::size_t unit = column.rfind('_');
+  return fmt::format("{}_uncertainty{}", column.substr(0, unit), column.substr(unit));
+}
+
 std::vector<ReadingColumn> optional_columns_of(BenchTest test) { return test->optional_columns; }
 
 std::vector<double> sample_means(BenchTest test, std::string_view column,

@@ -98,6 +98,10 @@ struct ReadingColumn {
   double below = std::numeric_limits<double>::infinity();
 };
 
+/// The optional column with the half-width of the 95 % interval of another one's cells, as `repose
+/// track` writes them: "drop_uncertainty_mm" of "drop_mm".
+std::string uncertainty_column(std::string_view column);
+
 /// The optional column of drops: 1 for heights read in air, 0 for those of a fall without it, as
 /// `repose track` writes them.
 inline constexpr std::string_view kInAirColumn = "in_air";

@@ -220,6 +220,11 @@ ReadingColumn in_air_column() {
           kFromZero, kOverOne};
 }
 
+ReadingColumn uncertainty_of(const char* column) {
+  return {uncertainty_column(column), fmt::format("half-width of the interval of {}", column),
+          kFromZero};
+}
+
 }  // namespace
 
 Method restitution_method() {
@@ -233,7 +238,8 @@ Method restitution_method() {
               "is not a material constant, and not the e that a simulation needs.",
           .optional_columns = {{kDiameter, "diameter of the sphere of the grain's volume"},
                                {kDensity, "density of the grain"},
-                               in_air_column()},
+                               in_air_column(),
+                               uncertainty_of("drop_mm")},
           .remarks = remarks_on_air,
           .error_of_all = mixed_air_error};
 }
@@ -264,7 +270,9 @@ Method rolling_method() {
               "bouncing of grains that are not round: a simulation of these needs a smaller mu_r.",
           .optional_columns = {{kDiameter,
                                 "diameter of the ball, or across the axis it rolls "
-                                "about"}},
+                                "about"},
+                               uncertainty_of("incline_deg"),
+                               uncertainty_of("released_mm")},
           .remarks = remarks_on_roll};
 }
 
@@ -275,7 +283,7 @@ Method drop_on_grains_method() {
   method.source = "mean of the readings";
   method.outputs = {{"rebound", "mm", "height of rebound from glued grains",
                      [](ReadingValues v) { return v[1]; }}};
-  method.optional_columns = {in_air_column()};
+  method.optional_columns = {in_air_column(), uncertainty_of("drop_mm")};
   method.remarks = {};
   method.error_of_all = {};
   method.validity =

@@ -1,10 +1,9 @@
 // A calibration: how long it would take, started, watched, stopped, gone on with; what it found, and its files.
-import {useCallback, useEffect, useState} from 'preact/hooks';
+import {useState} from 'preact/hooks';
 import type {Calibration, Estimate, FoundParameter, Progress, Study, Task} from './study_api';
-import {coefficientName, durationText, studies} from './study_api';
+import {coefficientName, durationText, isAtWork, studies} from './study_api';
+import {useCalibration} from './watched';
 
-const kLook_ms = 1000;
-const kAtWork = ['running', 'stopping', 'waiting'];
 
 // Bounds as a line, an interval as a bar on it, the value as a dot.
 const Strip = ({bounds, interval, value, label}: {bounds: [number, number]; interval: [number, number] | null; value: number | null; label: string}) => {
@@ -169,7 +168,7 @@ const Budgets = ({estimate, budget, choose}: {estimate: Estimate | null; budget:
 const lastOf = (tasks: Task[], name: string) => tasks.find(({task}) => task === name) ?? null;
 
 const Ended = ({task}: {task: Task}) => {
-  if (task.state === 'done' || kAtWork.includes(task.state)) return null;
+  if (task.state === 'done' || isAtWork(task)) return null;
   return (
     <section class="ended" role="status" aria-label="How it ended">
       <h3>{task.state === 'stopped' ? 'Stopped: it can be resumed.' : `It did not come to its end${task.end && ` (${task.end})`}.`}</h3>
@@ -179,44 +178,21 @@ const Ended = ({task}: {task: Task}) => {
 };
 
 export const CalibrationView = ({study, tasks, refresh}: {study: Study; tasks: Task[]; refresh: () => Promise<void>}) => {
-  const [state, setState] = useState<Calibration | null>(null);
+  const {state, trouble, look, act} = useCalibration(study.study, refresh);
   const [budget, setBudget] = useState('quick');
-  const [trouble, setTrouble] = useState('');
-  const look = useCallback(async () => {
-    try {
-      setState(await studies.calibration(study.study));
-    } catch (error) {
-      setTrouble((error as Error).message);
-    }
-  }, [study.study]);
-  useEffect(() => {
-    void look();
-    const timer = setInterval(() => { if (!document.hidden) void look(); }, kLook_ms);
-    return () => clearInterval(timer);
-  }, [look]);
-  const act = async (work: Promise<unknown>) => {
-    try {
-      await work;
-      setTrouble('');
-    } catch (error) {
-      setTrouble((error as Error).message);
-    }
-    await look();
-    await refresh();
-  };
   if (!state) return <p role="status">{trouble || 'looking into the folder …'}</p>;
   const run = lastOf(state.tasks, 'calibrate');
   const estimating = lastOf(state.tasks, 'estimate');
-  const is_at_work = run !== null && kAtWork.includes(run.state);
-  const is_estimating = estimating !== null && kAtWork.includes(estimating.state);
-  const before = tasks.filter((task) => task.study !== study.study && kAtWork.includes(task.state)).length;
+  const is_at_work = isAtWork(run);
+  const is_estimating = isAtWork(estimating);
+  const before = tasks.filter((task) => task.study !== study.study && isAtWork(task)).length;
   const start = (task: string) => void act(studies.startTask(study.study, task, task === 'calibrate' ? budget : ''));
   const word = state.state === 'unfinished' ? 'Resume' : state.state === 'finished' ? 'Calibrate again' : 'Start the calibration';
   return (
     <div class="calibration">
       {trouble && <p class="trouble" role="alert">{trouble}</p>}
       {study.faults.length > 0 && <p class="warning">{study.faults.length === 1 ? 'One thing is' : `${study.faults.length} things are`} missing or wrong: see the readings.</p>}
-      {is_at_work && <AtWork task={run} progress={state.progress} stop={() => void act(studies.stopTask(study.study, 'calibrate'))} />}
+      {run && is_at_work && <AtWork task={run} progress={state.progress} stop={() => void act(studies.stopTask(study.study, 'calibrate'))} />}
       {!is_at_work && state.is_elsewhere && <p class="warning" role="status">Another program is at work in {state.folder}, perhaps a terminal. {state.progress && `${state.progress.stage}: ${state.progress.done} of ${state.progress.of} simulations.`}</p>}
       {state.result && !is_at_work && <Found state={state} look={look} />}
       {!is_at_work && !state.is_elsewhere && (

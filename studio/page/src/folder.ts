@@ -2,6 +2,7 @@
 import {useCallback, useEffect, useRef, useState} from 'preact/hooks';
 import type {Answer, Folder, Marks} from './api';
 import {api} from './api';
+import {useLooking} from './watched';
 
 const kLookAgain_ms = 3000;
 // A browser has six connections to one server; pictures and the hand need some.
@@ -60,11 +61,7 @@ export const useFolder = (chosen: string | null) => {
       setLost((error as Error).message);
     }
   }, [work]);
-  useEffect(() => {
-    void look();
-    const timer = setInterval(() => { if (!document.hidden) void look(); }, kLookAgain_ms);
-    return () => clearInterval(timer);
-  }, [look]);
+  useLooking(look, kLookAgain_ms);
 
   // What is looked at has its lines again, which the studio has kept.
   const file = chosen ?? folder?.files[0]?.file ?? null;

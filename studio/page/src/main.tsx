@@ -4,6 +4,8 @@ import {useEffect, useState} from 'preact/hooks';
 import {api} from './api';
 import {useEdit} from './edit';
 import {Files} from './files';
+import type {Filmed} from './film';
+import {FilmView, FilmedChoice, filmedByName} from './film';
 import {useFolder} from './folder';
 import {Result} from './result';
 import {SetView} from './set';
@@ -20,6 +22,7 @@ const App = () => {
   const [tool, setTool] = useState<Tool>('move');
   const [brush, setBrush] = useState<Brush>({says: 'heap', width: 0.04});
   const [is_over, setIsOver] = useState(false);
+  const [filmed, setFilmed] = useState(new Map<string, Filmed>());  // of films, as a person says
   const files = folder?.files ?? [];
   const entry = files.find(({file}) => file === chosen) ?? files[0] ?? null;
   const known = entry ? answers.get(entry.file) : undefined;
@@ -29,6 +32,8 @@ const App = () => {
   const {current, tell, undo, save, forget, drop, keep} = useEdit(entry, answer, setTrouble, look, take);
   const shown = current?.answer ?? answer;
   const told = current?.told ?? answer?.told ?? null;
+  const shows = entry?.kind === 'film' ? filmed.get(entry.file) ?? filmedByName(entry.file) : 'heap';
+  const chooseFilmed = (one: Filmed) => setFilmed((before) => new Map(before).set(entry!.file, one));
   const is_told_here = !!told && !answer?.measured.camera;
   const choose = (file: string) => { setChosen(file); setIsSet(false); setTrouble(''); };
 
@@ -91,15 +96,17 @@ const App = () => {
       {is_set && !is_study && <main><SetView folder={folder} files={files} answers={answers} choose={choose} /></main>}
       {!is_study && entry && !is_set && (
         <main class="pictures">
-          <Files files={files} answers={answers} errors={errors} chosen={entry.file} choose={choose} />
-          <section class="picture" aria-label={entry.file}>
+          <Files files={files} answers={answers} errors={errors} filmed={filmed} chosen={entry.file} choose={choose} />
+          {shows !== 'heap' && <FilmView key={`${entry.file} ${shows}`} entry={entry} experiment={shows} choose={chooseFilmed} />}
+          {shows === 'heap' && <section class="picture" aria-label={entry.file}>
             <h2>{entry.file}</h2>
+            {entry.kind === 'film' && <FilmedChoice filmed="heap" choose={chooseFilmed} />}
             {told && is_told_here && <Toolbar key={entry.file} told={told} tool={tool} folder={folder} choose={setTool} tell={tell} brush={brush} setBrush={setBrush} />}
             {answer && !is_told_here && told && <p class="hint">It is measured with a camera file: correct it on the command line.</p>}
             {shown ? <Viewer entry={entry} marks={shown.marks} told={told} tool={is_told_here ? tool : 'move'} brush={brush} tell={tell} />
               : <p role="status">{errors.get(entry.file) ?? 'measuring …'}</p>}
-          </section>
-          {shown && (
+          </section>}
+          {shows === 'heap' && shown && (
             <aside>
               <Result answer={shown} definitions={folder.definitions} has_changes={!!current} needs_length={told?.scale?.length_mm === null} is_saved={entry.has_hints} is_told_here={is_told_here}
                 can_undo={(current?.past.length ?? 0) > 0} undo={undo} save={save} forget={forget}

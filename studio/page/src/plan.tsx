@@ -1,10 +1,9 @@
 // Which experiment would tell what of the coefficients that a study seeks: `repose plan` as a picture.
-import {useCallback, useEffect, useState} from 'preact/hooks';
-import type {Calibration, Plan, Study, Task} from './study_api';
-import {coefficientName, studies} from './study_api';
+import {useState} from 'preact/hooks';
+import type {Plan, Study} from './study_api';
+import {coefficientName, isAtWork, studies} from './study_api';
+import {useCalibration} from './watched';
 
-const kLook_ms = 1000;
-const kAtWork = ['running', 'stopping', 'waiting'];
 const kSeen = 1;  // uncertainties: less is no effect (docs/between-grains.md)
 const kEnough = .8;  // of the materials, as the command's table counts them
 
@@ -62,35 +61,12 @@ const Outlook = ({plan, names}: {plan: Plan; names: string[]}) => {
   );
 };
 
-export const PlanView = ({study, refresh}: {study: Study; tasks: Task[]; refresh: () => Promise<void>}) => {
-  const [state, setState] = useState<Calibration | null>(null);
+export const PlanView = ({study, refresh}: {study: Study; refresh: () => Promise<void>}) => {
+  const {state, trouble, act} = useCalibration(study.study, refresh);
   const [minutes, setMinutes] = useState('15');
-  const [trouble, setTrouble] = useState('');
-  const look = useCallback(async () => {
-    try {
-      setState(await studies.calibration(study.study));
-    } catch (error) {
-      setTrouble((error as Error).message);
-    }
-  }, [study.study]);
-  useEffect(() => {
-    void look();
-    const timer = setInterval(() => { if (!document.hidden) void look(); }, kLook_ms);
-    return () => clearInterval(timer);
-  }, [look]);
-  const act = async (work: Promise<unknown>) => {
-    try {
-      await work;
-      setTrouble('');
-    } catch (error) {
-      setTrouble((error as Error).message);
-    }
-    await look();
-    await refresh();
-  };
   if (!state) return <p role="status">{trouble || 'one moment …'}</p>;
   const task = state.tasks.find((one) => one.task === 'plan') ?? null;
-  const is_at_work = task !== null && kAtWork.includes(task.state);
+  const is_at_work = isAtWork(task);
   const plan = state.plan;
   const names = plan ? Object.keys(plan.now.interval_widths) : [];
   return (
@@ -110,7 +86,7 @@ export const PlanView = ({study, refresh}: {study: Study; tasks: Task[]; refresh
             <button type="button" class={plan ? '' : 'main'} onClick={() => void act(studies.startTask(study.study, 'plan', minutes))}>{plan ? 'Plan again' : 'Find out'}</button>
           </>
         )}
-        {is_at_work && <><button type="button" disabled={task.state === 'stopping'} onClick={() => void act(studies.stopTask(study.study, 'plan'))}>Stop</button>
+        {task && is_at_work && <><button type="button" disabled={task.state === 'stopping'} onClick={() => void act(studies.stopTask(study.study, 'plan'))}>Stop</button>
           <span role="status">{task.state === 'waiting' ? 'waits' : task.state === 'stopping' ? 'stops in good order …' : `at work for ${Math.round(task.seconds)} s: ${task.lines[task.lines.length - 1] ?? ''}`}</span></>}
       </div>
       {task?.state === 'failed' && <section class="ended" aria-label="How it ended">{task.lines.map((line) => <p key={line} class="reason">{line}</p>)}</section>}

@@ -2,7 +2,7 @@
 // checked by the program as they are typed, saved when asked.
 import {useEffect, useRef, useState} from 'preact/hooks';
 import type {NumbersCheck, SheetCheck, SheetData, Study, StudyExperiment} from './study_api';
-import {studies} from './study_api';
+import {coefficientName, studies} from './study_api';
 
 const kPause_ms = 250;  // after the last key, before it is checked
 const kFewestRows = 10;
@@ -152,22 +152,24 @@ export const Sheet = ({study, experiment, sheet, reload}: Props) => {
   );
 };
 
-export const Protocol = ({study, experiment, reload}: {study: Study; experiment: StudyExperiment; reload: () => Promise<void>}) => {
-  const section = `experiment.${experiment.experiment}`;
-  const [typed, setTyped] = useState<Record<string, string>>({});
+// A number of the study file that may be changed.
+interface StudyNumber { section: string; key: string; label: string; value: string; absence: string | null; rule: string }
+
+const StudyNumbers = ({study, name, summary, numbers, reload}: {study: Study; name: string; summary: string; numbers: StudyNumber[]; reload: () => Promise<void>}) => {
+  const [typed, setTyped] = useState<Record<string, Record<string, string>>>({});
   const [check, setCheck] = useState<NumbersCheck | null>(null);
   const [trouble, setTrouble] = useState('');
   const is_changed = Object.keys(typed).length > 0;
   useEffect(() => {
     if (!is_changed) return;
     const timer = setTimeout(() => {
-      studies.checkNumbers(study.study, {[section]: typed}).then(setCheck, (error) => setTrouble((error as Error).message));
+      studies.checkNumbers(study.study, typed).then(setCheck, (error) => setTrouble((error as Error).message));
     }, kPause_ms);
     return () => clearTimeout(timer);
   }, [typed]);
   const save = async () => {
     try {
-      const done = await studies.saveNumbers(study.study, {[section]: typed}, study.version!);
+      const done = await studies.saveNumbers(study.study, typed, study.version!);
       setCheck(done);
       if (done.saved) setTyped({});
       setTrouble('');
@@ -176,22 +178,22 @@ export const Protocol = ({study, experiment, reload}: {study: Study; experiment:
       setTrouble((error as Error).message);
     }
   };
-  if (experiment.keys.length === 0) return null;
-  const others = check?.faults.filter(({key}) => !experiment.keys.some((one) => key === `${section}.${one.key}`)) ?? [];
+  if (numbers.length === 0) return null;
+  const others = check?.faults.filter(({key}) => !numbers.some((one) => key === `${one.section}.${one.key}`)) ?? [];
   return (
-    <details class="protocol">
-      <summary>How it was done: {experiment.keys.filter(({value}) => value !== '').map(({key, value}) => `${key} ${value}`).join(', ')}</summary>
+    <details class={`protocol ${name}`}>
+      <summary>{summary}</summary>
       <table>
         <thead><tr><th scope="col">key of the study</th><th scope="col">value</th><th scope="col">what it may be</th></tr></thead>
         <tbody>
-          {experiment.keys.map(({key, value, example, rule, absence}) => {
+          {numbers.map(({section, key, label, value, absence, rule}) => {
             const faults = check?.faults.filter((fault) => fault.key === `${section}.${key}`) ?? [];
             return (
-              <tr key={key}>
-                <th scope="row"><code>{key}</code></th>
-                <td><input type="text" inputMode="decimal" aria-label={`${key} of ${experiment.experiment}`} value={typed[key] ?? value} placeholder={absence === null ? '' : absence}
-                  aria-invalid={faults.length > 0} onInput={(event) => setTyped({...typed, [key]: event.currentTarget.value})} /></td>
-                <td class="hint">{rule}, such as {example}{absence !== null && `; empty: ${absence}`}
+              <tr key={`${section}.${key}`}>
+                <th scope="row"><code>{label}</code></th>
+                <td><input type="text" inputMode="decimal" aria-label={`${label} of ${name}`} value={typed[section]?.[key] ?? value} placeholder={absence ?? ''}
+                  aria-invalid={faults.length > 0} onInput={(event) => setTyped({...typed, [section]: {...typed[section], [key]: event.currentTarget.value}})} /></td>
+                <td class="hint">{rule}{absence !== null && `; empty: ${absence}`}
                   {faults.map(({text}) => <span key={text} class="fault">{text}</span>)}</td>
               </tr>
             );
@@ -207,3 +209,17 @@ export const Protocol = ({study, experiment, reload}: {study: Study; experiment:
     </details>
   );
 };
+
+export const Protocol = ({study, experiment, reload}: {study: Study; experiment: StudyExperiment; reload: () => Promise<void>}) => (
+  <StudyNumbers study={study} name={experiment.experiment} reload={reload}
+    summary={`How it was done: ${experiment.keys.filter(({value}) => value !== '').map(({key, value}) => `${key} ${value}`).join(', ')}`}
+    numbers={experiment.keys.map(({key, value, example, rule, absence}) => ({section: `experiment.${experiment.experiment}`, key, label: key, value, absence, rule: `${rule}, such as ${example}`}))} />
+);
+
+// Between which bounds coefficients are sought, and where the search begins.
+export const Bounds = ({study, reload}: {study: Study; reload: () => Promise<void>}) => (
+  <StudyNumbers study={study} name="bounds" reload={reload} summary="Which coefficients are sought, and between which bounds"
+    numbers={(study.sought ?? []).flatMap((one) => (['value', 'min', 'max'] as const).filter((key) => one[key] !== null).map((key) => (
+      {section: one.name, key, label: `${coefficientName(one.name)}: ${key}`, value: `${one[key]}`, absence: null,
+        rule: key === 'value' ? 'for simulations before it is fitted' : key === 'min' ? 'lower bound' : 'upper bound'})))} />
+);

@@ -3,15 +3,15 @@ import {useCallback, useEffect, useState} from 'preact/hooks';
 import {CalibrationView} from './calibration';
 import {NewStudy} from './new_study';
 import {PlanView} from './plan';
-import {Protocol, Sheet} from './sheet';
+import {Bounds, Protocol, Sheet} from './sheet';
 import type {Study, StudyHead, Task} from './study_api';
-import {studies} from './study_api';
+import {isAtWork, studies} from './study_api';
+import {useLooking} from './watched';
 
 type Step = 'bench' | 'plan' | 'calibration';
 
 const kSteps: [Step, string][] = [['bench', '1. Readings'], ['plan', '2. Which experiments'], ['calibration', '3. Calibration']];
 const kLookAgain_ms = 2000;
-const kAtWork = ['running', 'stopping', 'waiting'];
 
 const StudyList = ({heads, tasks, chosen, choose, startNew}: {
   heads: StudyHead[]; tasks: Task[]; chosen: string | null; choose: (study: string) => void; startNew: () => void;
@@ -20,7 +20,7 @@ const StudyList = ({heads, tasks, chosen, choose, startNew}: {
     <button type="button" class="main" aria-pressed={chosen === null} onClick={startNew}>New study</button>
     <ul>
       {heads.map((head) => {
-        const task = tasks.find(({study, state}) => study === head.study && kAtWork.includes(state));
+        const task = tasks.find((one) => one.study === head.study && isAtWork(one));
         return (
           <li key={head.study}>
             <button type="button" aria-current={head.study === chosen} onClick={() => choose(head.study)}>
@@ -53,6 +53,7 @@ const Bench = ({study, reload}: {study: Study; reload: () => Promise<void>}) => 
         <Protocol study={study} experiment={one} reload={reload} />
       </section>
     ))}
+    {study.sought && study.sought.length > 0 && <section class="experiment" aria-label="bounds"><Bounds study={study} reload={reload} /></section>}
     {study.notes?.map((note) => <p key={note} class="warning">{note}</p>)}
   </div>
 );
@@ -87,7 +88,7 @@ const StudyView = ({name, tasks, refresh}: {name: string; tasks: Task[]; refresh
             {kSteps.map(([one, title]) => <button key={one} type="button" aria-pressed={one === step} onClick={() => setStep(one)}>{title}</button>)}
           </div>
           {step === 'bench' && <Bench study={study} reload={load} />}
-          {step === 'plan' && <PlanView study={study} tasks={tasks} refresh={refresh} />}
+          {step === 'plan' && <PlanView study={study} refresh={refresh} />}
           {step === 'calibration' && <CalibrationView study={study} tasks={tasks} refresh={refresh} />}
         </>
       )}
@@ -110,11 +111,7 @@ export const Studies = () => {
       setTrouble((error as Error).message);
     }
   }, []);
-  useEffect(() => {
-    void refresh().then(() => undefined);
-    const timer = setInterval(() => { if (!document.hidden) void refresh(); }, kLookAgain_ms);
-    return () => clearInterval(timer);
-  }, [refresh]);
+  useLooking(refresh, kLookAgain_ms);
   // The first is shown once it is known that there is one.
   const [is_new, setIsNew] = useState(false);
   if (!heads) return <p role="status" class="empty">{trouble || 'looking for studies …'}</p>;

@@ -68,7 +68,7 @@ export interface Study extends StudyHead {
   hash?: string;
   version?: string;
   notes?: string[];
-  sought?: {name: string; min: number; max: number}[];
+  sought?: {name: string; value: number | null; min: number; max: number}[];
   experiments?: StudyExperiment[];
 }
 
@@ -183,6 +183,9 @@ export const studies = {
   reportAddress: (study: string) => of('/files/report', {study}),
   fileAddress: (study: string, name: string) => of('/files/calibration', {study, name}),
 };
+
+/** A task that runs, or waits for those before it. */
+export const isAtWork = (task: Task | null) => task !== null && ['running', 'stopping', 'waiting'].includes(task.state);
 
 // "particle–wall restitution" for contact.particle_wall.restitution.
 export const coefficientName = (name: string) => {

@@ -64,7 +64,7 @@ export const Toolbar = ({told, tool, choose, tell, brush, setBrush}: Props & {br
 const numbersIn = (text: string) => text.split(/[\s,;]+/).filter((word) => word !== '').map(Number);
 
 // Numbers parted by commas; told when the field is left, or Enter is pressed.
-const Numbers = ({label, value, counts, tell}:
+export const Numbers = ({label, value, counts, tell}:
     {label: string; value: number[]; counts: (n: number) => boolean; tell: (numbers: number[]) => void}) => {
   // The page may be drawn anew while somebody types.
   const [draft, setDraft] = useState<string | null>(null);

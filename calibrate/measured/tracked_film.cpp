@@ -1,15 +1,82 @@
-#include "cli/track/track_output.h"
+#include "calibrate/measured/tracked_film.h"
 
+#include <exception>
 #include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/csv.h"
+#include "base/input_error.h"
+#include "base/memory.h"
+#include "base/text.h"
 #include "calibrate/measured/json_text.h"
+#include "calibrate/measured/measured_command.h"
+#include "vision/drawing/track_overlays.h"
 #include "vision/measure/repose_angle.h"
 
-namespace repose::cli {
+namespace repose::calibrate {
+
+const char* name_of(vision::Filmed filmed) {
+  switch (filmed) {
+    case vision::Filmed::drop:
+      return "drop";
+    case vision::Filmed::roll:
+      return "roll";
+    case vision::Filmed::tilt:
+      break;
+  }
+  return "tilt";
+}
+
+namespace {
+
+vision::Picture overlay_of(const TrackedFilm& film) {
+  const std::string title = std::filesystem::path(film.file).filename().string();
+  switch (film.filmed) {
+    case vision::Filmed::drop:
+      return vision::draw_drop_overlay(film.drop, title);
+    case vision::Filmed::roll:
+      return vision::draw_roll_overlay(film.roll, title);
+    case vision::Filmed::tilt:
+      break;
+  }
+  return vision::draw_tilt_overlay(film.tilt, title);
+}
+
+}  // namespace
+
+TrackedFilm tracked_film(const FilmTracking& tracking) {
+  TrackedFilm tracked;
+  tracked.file = tracking.film.path.string();
+  tracked.filmed = tracking.filmed;
+  const vision::ScaleOptions& scale = tracking.scale;
+  vision::TrackOptions options{.scale = scale.scale,
+                               .released_mm = tracking.released_mm,
+                               .draws_strobe = tracking.take_overlay != nullptr,
+                               .progress = tracking.progress};
+  if (scale.finds_board) {
+    options.board = vision::BoardPlacing{scale.square_mm, scale.board_offset_mm};
+  }
+  try {
+    static_cast<vision::FilmTrack&>(tracked) =
+        vision::track_film(tracking.filmed, tracking.film, options);
+    try {
+      if (tracking.take_overlay) tracking.take_overlay(overlay_of(tracked));
+    } catch (const base::InputError& error) {
+      tracked.overlay_error = error.what();
+    }
+    drop_strobe(tracked);
+  } catch (const base::InputError& error) {
+    tracked.error = base::naming_file(tracked.file, error.what());
+  } catch (const std::exception& error) {
+    tracked.is_internal_error = !base::is_out_of_memory(error);
+    tracked.error = tracked.is_internal_error
+                        ? base::naming_file(tracked.file, error.what())
+                        : base::no_memory(tracked.file, "a smaller film, or fewer --threads");
+  }
+  return tracked;
+}
 
 namespace {
 
@@ -74,9 +141,10 @@ std::string tilt_row(const TrackedFilm& film) {
 
 }  // namespace
 
-std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& plan) {
-  if (plan.filmed != vision::Filmed::drop) {
-    const bool rolls = plan.filmed == vision::Filmed::roll;
+std::string track_csv(const std::vector<TrackedFilm>& films, vision::Filmed filmed,
+                      BouncesToTell bounces_to_tell) {
+  if (filmed != vision::Filmed::drop) {
+    const bool rolls = filmed == vision::Filmed::roll;
     std::string csv = rolls ? kRollHeader : kTiltHeader;
     for (const TrackedFilm& film : films) {
       if (film.copy_of.empty() && has_reading(film)) csv += rolls ? roll_row(film) : tilt_row(film);
@@ -89,7 +157,7 @@ std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& pl
     const std::size_t bounces = film.drop.bounces.size();
     // Of a film whose first bounce was not read there is none to give.
     const std::size_t first = film.drop.has_first_bounce() ? 1 : 0;
-    const std::size_t count = plan.tells_all_bounces ? bounces : first;
+    const std::size_t count = bounces_to_tell == BouncesToTell::all ? bounces : first;
     for (std::size_t k = 0; k < count; ++k) csv += drop_row(film, k);
   }
   return csv;
@@ -98,18 +166,6 @@ std::string track_csv(const std::vector<TrackedFilm>& films, const TrackPlan& pl
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* filmed_name(vision::Filmed filmed) {
-  switch (filmed) {
-    case vision::Filmed::drop:
-      return "drop";
-    case vision::Filmed::roll:
-      return "roll";
-    case vision::Filmed::tilt:
-      break;
-  }
-  return "tilt";
-}
 
 Json bounce_json(const vision::Bounce& bounce) {
   return {{"number", bounce.number},
@@ -237,9 +293,11 @@ void add_readings(const TrackedFilm& film, Json& json) {
   }
 }
 
-Json json_of(const TrackedFilm& film) {
+}  // namespace
+
+Json tracked_json(const TrackedFilm& film) {
   Json json{{"file", film.file},
-            {"experiment", filmed_name(film.filmed)},
+            {"experiment", name_of(film.filmed)},
             {"status", name_of(status_of(film))}};
   add_readings(film, json);
   json["copy_of"] = film.copy_of.empty() ? Json() : Json(film.copy_of);
@@ -253,8 +311,16 @@ Json json_of(const TrackedFilm& film) {
   return json;
 }
 
-}  // namespace
+std::string track_json(const std::vector<TrackedFilm>& films) {
+  return json_text(films, tracked_json);
+}
 
-std::string track_json(const std::vector<TrackedFilm>& films) { return json_text(films, json_of); }
+std::string track_command(const FilmTracking& tracking) {
+  std::string command = fmt::format("repose track {} {}", name_of(tracking.filmed),
+                                    base::shell_word(tracking.film.path.string()));
+  command += scale_options(tracking.scale);
+  if (tracking.released_mm) command += fmt::format(" --released {:g}", *tracking.released_mm);
+  return command;
+}
 
-}  // namespace repose::cli
+}  // namespace repose::calibrate

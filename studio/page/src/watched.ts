@@ -1,0 +1,40 @@
+// What is looked at again and again while the page is looked at.
+import {useCallback, useEffect, useState} from 'preact/hooks';
+import type {Calibration} from './study_api';
+import {studies} from './study_api';
+
+const kLook_ms = 1000;
+
+/** Now, and then at these intervals; not while the window is hidden. */
+export const useLooking = (look: () => Promise<void>, every_ms: number) => {
+  useEffect(() => {
+    void look();
+    const timer = setInterval(() => { if (!document.hidden) void look(); }, every_ms);
+    return () => clearInterval(timer);
+  }, [look, every_ms]);
+};
+
+/** How far a study's calibration is, why that is not known, and what a person asks of it. */
+export const useCalibration = (study: string, refresh: () => Promise<void>) => {
+  const [state, setState] = useState<Calibration | null>(null);
+  const [trouble, setTrouble] = useState('');
+  const look = useCallback(async () => {
+    try {
+      setState(await studies.calibration(study));
+    } catch (error) {
+      setTrouble((error as Error).message);
+    }
+  }, [study]);
+  useLooking(look, kLook_ms);
+  const act = async (work: Promise<unknown>) => {
+    try {
+      await work;
+      setTrouble('');
+    } catch (error) {
+      setTrouble((error as Error).message);
+    }
+    await look();
+    await refresh();
+  };
+  return {state, trouble, look, act};
+};
