@@ -190,7 +190,7 @@ double explained_fraction(const Surrogate& surrogate, double w, double bench_var
 }
 
 base::Fault too_few(const Observable& observable, std::size_t readings,
-                    const std::vector<Run>& runs) {
+                    const std::vector<Run>& runs, bool has_coarse) {
   int attempts = 0;
   std::string failure;
   std::string names;
@@ -209,7 +209,9 @@ base::Fault too_few(const Observable& observable, std::size_t readings,
   if (!failure.empty()) text += " Some failed: " + failure + ".";
   return {.where = observable.name,
           .value = std::move(text),
-          .fix = "change the bounds, or use another reading"};
+          .fix = has_coarse ? "change the bounds, use another reading, or make no runs of larger "
+                              "grains: --fidelity full"
+                            : "change the bounds, or use another reading"};
 }
 
 }  // namespace
@@ -236,7 +238,9 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
         problem, experiment_named(problem, observable.experiment), observable.reading, runs);
     const std::size_t full = full_readings(training_set);
     if (training_set.readings.size() < kFewestToLearn || full < kFewestFull) {
-      errors.add(too_few(observable, std::min(full, training_set.readings.size()), runs));
+      const Experiment& experiment = experiment_named(problem, observable.experiment);
+      errors.add(too_few(observable, std::min(full, training_set.readings.size()), runs,
+                         experiment.coarse.has_value()));
       continue;
     }
     std::optional<Surrogate> start;

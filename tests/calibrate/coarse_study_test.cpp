@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include "calibrate/experiment/run_spec.h"
@@ -37,10 +38,12 @@ class CoarseStudy : public ::testing::Test {
  protected:
   StudyRecord record(double size_mm = 3, const std::string& heap = kHeapOfMany) const {
     StudyRecord record;
-    record.study =
-        dem::read_study(folder_.write("study.toml", test::kSphereStudy + heap),
-                        {"particle.size_mm = [" + std::to_string(size_mm) + ", " +
-                         std::to_string(size_mm) + ", " + std::to_string(size_mm) + "]"});
+    record.study = dem::read_study(folder_.write("study.toml", test::kSphereStudy + heap),
+                                   {fmt::format("particle.size_mm = [{0}, {0}, {0}]", size_mm),
+                                    // Rough enough to stand.
+                                    "contact.particle_wall.rolling_friction = 0.2",
+                                    "contact.particle_particle.sliding_friction = 0.8",
+                                    "contact.particle_particle.rolling_friction = 0.3"});
     record.grain = dem::build_grain(record.study.grain);
     record.method = "joint";
     record.budget = budget_named("quick");
@@ -103,7 +106,7 @@ TEST_F(CoarseStudy, ACoarseRunHasAsFewGrainsAsForeseen) {
   const StudySimulator simulator(study.study, study.grain, problem.parameters, 0);
   const Job job = heap_job(problem, experiment_named(problem, "heap").usual_inputs());
   const std::atomic<bool> is_interrupted{false};
-  const Run run = run_of(job, simulator.simulate(job, is_interrupted));
+  const auto run = run_of(job, simulator.simulate(job, is_interrupted));
   ASSERT_EQ(run.failure, "");
   EXPECT_THAT(run.readings.at("grains"), AllOf(Ge(200), Le(400)));
 }

@@ -43,7 +43,7 @@ Problem problem_of(const Lines& lines) {
   return problem;
 }
 
-JointFit fit_of(const Problem& problem, const Lines& lines) {
+JointFit fit_of_lines(const Problem& problem, const Lines& lines) {
   constexpr int kRuns = 9;
   fake::Runs runs;
   for (std::size_t k = 0; k < lines.slopes.size(); ++k) {
@@ -56,10 +56,10 @@ JointFit fit_of(const Problem& problem, const Lines& lines) {
   return fit_jointly(problem, runs);
 }
 
-JointFit fit_of(const Lines& lines) { return fit_of(problem_of(lines), lines); }
+JointFit fit_of_lines(const Lines& lines) { return fit_of_lines(problem_of(lines), lines); }
 
 TEST(Freedom, ThreeReadingsOfOneCoefficientLeaveTwo) {
-  const Freedom freedom = fit_of(Lines{{10, 20, -10}, {25, 30, 15}}).freedom;
+  const Freedom freedom = fit_of_lines(Lines{{10, 20, -10}, {25, 30, 15}}).freedom;
   EXPECT_NEAR(freedom.degrees, 2, .01);
   EXPECT_NEAR(freedom.of_chi2, 2, .01);
   // H = a a^T / a^T a for equal uncertainties: a^2 = 100, 400, 100 of 600.
@@ -69,7 +69,7 @@ TEST(Freedom, ThreeReadingsOfOneCoefficientLeaveTwo) {
 }
 
 TEST(Freedom, WhatAFitUsesUpIsNotTested) {
-  EXPECT_LT(fit_of(Lines{{10}, {25}}).freedom.degrees, .01);
+  EXPECT_LT(fit_of_lines(Lines{{10}, {25}}).freedom.degrees, .01);
   // Two readings, two coefficients.
   Lines lines{{10, 20}, {25, 30}};
   Problem two = problem_of(lines);
@@ -88,21 +88,21 @@ TEST(Freedom, WhatIsKnownBeforehandCountsAsAReading) {
   const Lines lines{{10}, {25}};
   Problem problem = problem_of(lines);
   problem.parameters[0].prior = Prior{.5, .01};  // as sure as the reading: .1 / 10
-  const Freedom freedom = fit_of(problem, lines).freedom;
+  const Freedom freedom = fit_of_lines(problem, lines).freedom;
   EXPECT_NEAR(freedom.degrees, .5, .01);
   EXPECT_NEAR(freedom.of_chi2, 1, .01);
 }
 
 TEST(Freedom, ACoefficientAtItsBoundFollowsNothing) {
-  EXPECT_NEAR(fit_of(Lines{{10}, {35}}).freedom.degrees, 1, .01);
+  EXPECT_NEAR(fit_of_lines(Lines{{10}, {35}}).freedom.degrees, 1, .01);
 }
 
 TEST(Freedom, ChiSquareIsComparedWithWhatIsLeft) {
   // chi^2 = 2 * 1.65^2 = 5.4: rare with one degree of freedom, not with four.
   const double off = .165;
   const auto no_set_fits = Contains(HasSubstr("no parameter set fits"));
-  EXPECT_THAT(fit_of(Lines{{10, 10}, {25 + off, 25 - off}}).warnings, no_set_fits);
-  EXPECT_THAT(fit_of(Lines{{10, 10, 10, 10, 10}, {25 + off, 25 - off, 25, 25, 25}}).warnings,
+  EXPECT_THAT(fit_of_lines(Lines{{10, 10}, {25 + off, 25 - off}}).warnings, no_set_fits);
+  EXPECT_THAT(fit_of_lines(Lines{{10, 10, 10, 10, 10}, {25 + off, 25 - off, 25, 25, 25}}).warnings,
               Not(no_set_fits));
 }
 

@@ -72,7 +72,7 @@ double half_width(const FittedParameter& parameter) {
   return (parameter.interval.high - parameter.interval.low) / 2;
 }
 
-JointFit fit_of(const std::vector<LinearReading>& readings) {
+JointFit fit_of_readings(const std::vector<LinearReading>& readings) {
   const Problem problem = problem_of(readings);
   return fit_jointly(problem, runs_of(problem, readings));
 }
@@ -82,14 +82,15 @@ double t_95(double df) { return base::student_t_quantile(.975, df); }
 TEST(IntervalLimit, OfOneReadingIsStudents) {
   for (const auto& [n, t] : {std::pair{3, 4.302653}, std::pair{5, 2.776445}}) {
     const double half = t * .5 / std::sqrt(n) / 20;
-    EXPECT_NEAR(half_width(fit_of({{{20}, 20, .5, n}}).parameters[0]), half, .01 * half) << n;
+    EXPECT_NEAR(half_width(fit_of_readings({{{20}, 20, .5, n}}).parameters[0]), half, .01 * half)
+        << n;
   }
 }
 
 // Two readings tell two parameters as half their sum and half their difference. GUM G.2b: of two
 // equal variances, each of four degrees of freedom, the sum has eight: t = 2.306.
 TEST(IntervalLimit, OfTwoEqualReadingsOfTwoParametersHasTheirDegreesTogether) {
-  const JointFit fit = fit_of({{{20, 20}, 30, .5, 5}, {{20, -20}, 10, .5, 5}});
+  const JointFit fit = fit_of_readings({{{20, 20}, 30, .5, 5}, {{20, -20}, 10, .5, 5}});
   const double half = 2.306004 * (.5 / std::sqrt(5)) / (20 * std::sqrt(2));
   EXPECT_NEAR(fit.parameters[0].value, .5, .001);
   EXPECT_NEAR(half_width(fit.parameters[0]), half, .01 * half);
@@ -98,7 +99,7 @@ TEST(IntervalLimit, OfTwoEqualReadingsOfTwoParametersHasTheirDegreesTogether) {
 
 TEST(IntervalLimit, OfReadingsThatDifferHasWelchsDegrees) {
   const double u1 = .6 / std::sqrt(3), u2 = .9 / std::sqrt(6);
-  const JointFit fit = fit_of({{{20, 20}, 30, .6, 3}, {{20, -20}, 10, .9, 6}});
+  const JointFit fit = fit_of_readings({{{20, 20}, 30, .6, 3}, {{20, -20}, 10, .9, 6}});
   const double df = std::pow(u1 * u1 + u2 * u2, 2) / (std::pow(u1, 4) / 2 + std::pow(u2, 4) / 5);
   const double half = t_95(df) * std::hypot(u1, u2) / 40;
   EXPECT_NEAR(half_width(fit.parameters[0]), half, .01 * half);
@@ -108,8 +109,8 @@ TEST(IntervalLimit, OfReadingsThatDifferHasWelchsDegrees) {
 // degrees of freedom, make it (1 + 4 · (1/4 + 1/4) / 4) times as large.
 TEST(IntervalLimit, OfTwoReadingsOfOneParameterPaysForTheirWeights) {
   const double half = 2.306004 * .5 / std::sqrt(10) * std::sqrt(1.5) / 20;
-  EXPECT_NEAR(half_width(fit_of({{{20}, 20, .5, 5}, {{20}, 20, .5, 5}}).parameters[0]), half,
-              .01 * half);
+  EXPECT_NEAR(half_width(fit_of_readings({{{20}, 20, .5, 5}, {{20}, 20, .5, 5}}).parameters[0]),
+              half, .01 * half);
 }
 
 TEST(IntervalLimit, IsThatOfTheNormalDistributionWhereScattersAreKnown) {
@@ -122,7 +123,8 @@ TEST(IntervalLimit, IsThatOfTheNormalDistributionWhereScattersAreKnown) {
 
 // One that no reading tells is somewhere within its bounds, and so makes the others hardly unsure.
 TEST(IntervalLimit, OfAParameterIsTheSameBesideOneThatNoReadingTells) {
-  const JointFit fit = fit_of({{{20, 20, .01}, 30.005, .5, 5}, {{20, -20, .01}, 10.005, .5, 5}});
+  const JointFit fit =
+      fit_of_readings({{{20, 20, .01}, 30.005, .5, 5}, {{20, -20, .01}, 10.005, .5, 5}});
   const double half = 2.306004 * (.5 / std::sqrt(5)) / (20 * std::sqrt(2));
   EXPECT_NEAR(half_width(fit.parameters[0]), half, .02 * half);
   EXPECT_EQ(fit.parameters[2].verdict, Verdict::undetermined);
@@ -148,7 +150,8 @@ TEST(IntervalLimit, OfAParameterAtItsBoundIsThatOfItsReading) {
 }
 
 TEST(IntervalLimit, ProfilesAreInUnitsOfWhichTheNormalLimitEndsThem) {
-  const FittedParameter x = fit_of({{{20, 20}, 30, .5, 5}, {{20, -20}, 10, .5, 5}}).parameters[0];
+  const FittedParameter x =
+      fit_of_readings({{{20, 20}, 30, .5, 5}, {{20, -20}, 10, .5, 5}}).parameters[0];
   bool is_any = false;
   for (const ProfilePoint& point : x.profile) {
     const double off = (point.value - x.value) / half_width(x);
@@ -160,7 +163,7 @@ TEST(IntervalLimit, ProfilesAreInUnitsOfWhichTheNormalLimitEndsThem) {
 }
 
 TEST(IntervalLimit, EquallyGoodSetsAreWithinAllIntervals) {
-  const JointFit fit = fit_of({{{20, 20}, 30, 4, 3}, {{20, -20}, 10, 4, 3}});
+  const JointFit fit = fit_of_readings({{{20, 20}, 30, 4, 3}, {{20, -20}, 10, 4, 3}});
   ASSERT_FALSE(fit.equivalence_family.empty());
   for (const ParameterSet& set : fit.equivalence_family) {
     for (std::size_t j = 0; j < set.values.size(); ++j) {
