@@ -93,9 +93,9 @@ std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
 }
 
 std::vector<ChosenRun> best_runs(const std::vector<Surrogate>& surrogates,
-                               const std::vector<double>& weights,
-                               const std::vector<Point>& candidates, const RunCosts& costs,
-                               double seconds, double most_seconds) {
+                                 const std::vector<double>& weights,
+                                 const std::vector<Point>& candidates, const RunCosts& costs,
+                                 double seconds, double most_seconds) {
   std::vector<Unknown> unknowns =
       unknowns_of(surrogates, weights, candidates, {RunKind::full, RunKind::coarse});
   const auto count = static_cast<Eigen::Index>(candidates.size());

@@ -49,9 +49,9 @@ struct RunCosts {
 /// that lowers the variances of full ones most for what it costs, until `seconds` are spent. The
 /// last may take longer, where `most_seconds` allow it.
 std::vector<ChosenRun> best_runs(const std::vector<Surrogate>& surrogates,
-                               const std::vector<double>& weights,
-                               const std::vector<Point>& candidates, const RunCosts& costs,
-                               double seconds, double most_seconds);
+                                 const std::vector<double>& weights,
+                                 const std::vector<Point>& candidates, const RunCosts& costs,
+                                 double seconds, double most_seconds);
 
 /// That mean variance.
 double unknown_fraction(const Misfit& misfit, const PosteriorSamples& sets, std::size_t observable);

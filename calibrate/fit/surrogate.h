@@ -48,9 +48,7 @@ struct TrainingSet {
   /// Of each reading's run; empty: all are full.
   std::vector<RunKind> kinds = {};
 
-  RunKind kind(std::size_t reading) const {
-    return kinds.empty() ? RunKind::full : kinds[reading];
-  }
+  RunKind kind(std::size_t reading) const { return kinds.empty() ? RunKind::full : kinds[reading]; }
 };
 
 /// What coarse runs read beside full ones, in the reading's unit.

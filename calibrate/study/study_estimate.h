@@ -51,7 +51,7 @@ struct ExperimentEstimate {
   PhaseWork all() const;
 };
 
-std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& budget);
+std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& asked);
 
 /// All of it in one line, with each phase's share of the work: "at most 291 simulations: first
 /// round 31 (9 %), ...".

@@ -65,7 +65,7 @@ struct StudyOutcome {
 /// is known to StudyContext::leave.
 /// @throws base::InputError  a protocol that cannot be run, a folder that cannot be written,
 /// or too few runs with a reading for a fit.
-std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& budget,
+std::optional<StudyOutcome> run_study(const Problem& problem, const Budget& asked,
                                       const StudyContext& context);
 
 }  // namespace repose::calibrate

@@ -243,7 +243,7 @@ struct FakeHeap {
 /// A pyramid of balls of 18 mm, 4 x 4, 3 x 3, 2 x 2 and 1, without the first ones of the lowest
 /// layer.
 std::string rows_of_pyramid(int count) {
-  constexpr int kAll = 30;
+  constexpr int kBalls = 30;
   constexpr double kRadius = .009;
   std::string rows;
   int number = 0;
@@ -251,7 +251,7 @@ std::string rows_of_pyramid(int count) {
     const double height = kRadius + (4 - side) * kRadius * std::sqrt(2.);
     for (int k = 0; k < side * side; ++k) {
       const auto place = [&](int at) { return kRadius * (2 * at - side + 1); };
-      if (++number <= kAll - count) continue;
+      if (++number <= kBalls - count) continue;
       rows += fmt::format("{} 1 {:.6f} {:.6f} {:.6f} {}\n", number, place(k % side),
                           place(k / side), height, kRadius);
     }
