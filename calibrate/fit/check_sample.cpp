@@ -45,7 +45,7 @@ RunScatter scatter_of(const CheckSample& sample, const JointFit* fit, std::size_
   const RunScatter seen{sample.sd(), sample.count() - 1};
   if (fit == nullptr || sample.count() < 2) return seen;
   const RunScatter known{fit->observables[observable].simulated_sd,
-                         std::max(fit->surrogates[observable].runs - 1, 1)};
+                         fit->surrogates[observable].scatter_df()};
   return known.sd > seen.sd ? known : seen;
 }
 

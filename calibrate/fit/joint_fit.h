@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -116,6 +117,9 @@ struct SurrogateQuality {
   double leave_one_out_error = 0;     ///< rms of leave-one-out errors, seed noise included, unit
   double inflation = 1;               ///< by which its uncertainty was enlarged
   std::optional<CoarseQuality> coarse = {};  ///< none: all runs are full
+
+  /// By how many degrees of freedom the scatter of full runs is known, about.
+  int scatter_df() const { return std::max(runs - (coarse ? coarse->runs : 0) - 1, 1); }
 };
 
 /// What was known after a round.

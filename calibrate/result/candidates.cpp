@@ -46,7 +46,7 @@ double scores_of_scatter(const JointResult& joint) {
     const ResultObservable& observable = joint.observables[k];
     if (observable.sd_assumed || k >= joint.surrogates.size()) continue;
     sum += score_of_scatter(observable.measured_sd, bench_readings(observable) - 1,
-                            observable.predicted_sd, joint.surrogates[k].runs - 1);
+                            observable.predicted_sd, joint.surrogates[k].scatter_df());
   }
   return sum;
 }

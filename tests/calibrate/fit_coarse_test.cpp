@@ -210,6 +210,14 @@ TEST(CoarseRuns, AStudyFindsTheSameWithFewerSeconds) {
   }
 }
 
+TEST(CoarseRuns, TheScatterOfFullOnesIsKnownByTheseAlone) {
+  const Problem problem = coarse_problem();
+  const fake::Runs runs = fake::first_runs(problem);
+  const SurrogateQuality quality = fit_jointly(problem, runs).surrogates.back();
+  EXPECT_EQ(quality.observable, "heap");
+  EXPECT_EQ(quality.scatter_df(), full_runs_of_first_round(experiment_named(problem, "heap")) - 1);
+}
+
 TEST(CoarseRuns, WithoutFullOnesThereIsNoFit) {
   const Problem problem = coarse_problem();
   fake::Runs runs = fake::first_runs(problem);
