@@ -32,6 +32,7 @@ RunSpec spec_of(const dem::Study& study, dem::Experiment experiment, const Named
   RunSpec spec{.protocol = study.experiments.at(experiment).protocol,
                .model = dem::model_for(study, experiment),
                .grain_fingerprint = grain.fingerprint,
+               .grain_size = grain.size,
                .viewing = {.views = experiment->is_pictured ? views : 0, .camera = {}},
                .definition = study.experiments.at(experiment).definition};
   spec.model.grain = grain.shape;
@@ -47,6 +48,7 @@ std::string description_of(const RunSpec& spec, std::uint64_t seed) {
             {"particle", json_of_fields(model.grain_material)},
             {"wall", json_of_fields(model.wall_material)},
             {"particle_wall", json_of_fields(model.grain_wall)}};
+  if (spec.grain_size != 1) json["grain_size"] = spec.grain_size;
   if (dem::has_grain_contacts(&spec.entry())) {
     json["particle_particle"] = json_of_fields(model.grain_grain);
   }

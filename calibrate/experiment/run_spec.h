@@ -18,6 +18,7 @@ struct NamedGrain {
 
   dem::ClumpShape shape;
   std::string fingerprint;
+  double size = 1;  ///< as a multiple of the grain that it was scaled from
 };
 
 /// All that decides over a run but its seed.
@@ -25,6 +26,7 @@ struct RunSpec {
   dem::Protocol protocol;
   dem::Model model;  ///< with the grain, and all coefficients that the experiment needs
   std::string grain_fingerprint;
+  double grain_size = 1;  ///< NamedGrain::size
   HeapViewing viewing = {.views = 0};  ///< none of experiments that are not pictured
   std::string definition = {};         ///< as RunResult::definition: how it is read, not what it is
   std::shared_ptr<const Simulator> simulator = own_simulator();  ///< that makes it

@@ -207,6 +207,13 @@ PredictedSet predicted(const Problem& problem, const Solution& solution,
   return set;
 }
 
+int failed_coarse_runs(const Experiment& experiment, const std::vector<Run>& runs) {
+  return static_cast<int>(std::ranges::count_if(runs, [&](const Run& run) {
+    return run.job.experiment == experiment.name && experiment.is_coarse(run.job.inputs) &&
+           !run.failure.empty();
+  }));
+}
+
 SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs,
                             const Surrogate& surrogate, const Observable& observable,
                             const Point& best) {
@@ -226,6 +233,7 @@ SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs
     quality.coarse = CoarseQuality{
         .size = experiment.usual_inputs().size,
         .runs = static_cast<int>(coarse),
+        .failed_runs = failed_coarse_runs(experiment, runs),
         .shift = shift->value,
         .uncertainty = shift->uncertainty,
         .scatter = surrogate.run_sd(RunKind::coarse) / surrogate.run_sd(RunKind::full)};

@@ -101,6 +101,7 @@ struct ResponseSurface {
 struct CoarseQuality {
   double size = 1;         ///< of their grains, as a multiple of the study's
   int runs = 0;            ///< with a reading
+  int failed_runs = 0;     ///< without one, which says nothing of full runs
   double shift = 0;        ///< of their reading from that of full ones, at the best set, unit
   double uncertainty = 0;  ///< standard, of that
   double scatter = 1;      ///< of single ones, as a multiple of that of full ones
@@ -109,8 +110,8 @@ struct CoarseQuality {
 /// How well a surrogate knows its experiment.
 struct SurrogateQuality {
   std::string observable;
-  int runs = 0;
-  int failed_runs = 0;
+  int runs = 0;         ///< with a reading, coarse ones too
+  int failed_runs = 0;  ///< full ones without
   double warp = 0;                    ///< y enters as asinh(y / warp); 0: as it is
   std::vector<double> length_scales;  ///< fractions of the bounds' distance; long: little effect
   double leave_one_out_sigma = 0;     ///< rms of standardised leave-one-out errors; 1 is right
@@ -118,8 +119,9 @@ struct SurrogateQuality {
   double inflation = 1;               ///< by which its uncertainty was enlarged
   std::optional<CoarseQuality> coarse = {};  ///< none: all runs are full
 
+  int full_runs() const { return runs - (coarse ? coarse->runs : 0); }
   /// By how many degrees of freedom the scatter of full runs is known, about.
-  int scatter_df() const { return std::max(runs - (coarse ? coarse->runs : 0) - 1, 1); }
+  int scatter_df() const { return std::max(full_runs() - 1, 1); }
 };
 
 /// What was known after a round.

@@ -54,8 +54,10 @@ Table surrogates_table(const JointResult& joint) {
                                    {.name = "σ widened by", .unit = {}, .decimals = 2}},
                        .rows = {}}};
   for (const SurrogateQuality& surrogate : joint.surrogates) {
+    const int failed =
+        surrogate.failed_runs + (surrogate.coarse ? surrogate.coarse->failed_runs : 0);
     table.data.add({axis_of_observable(surrogate.observable, ""),
-                    static_cast<double>(surrogate.runs), static_cast<double>(surrogate.failed_runs),
+                    static_cast<double>(surrogate.runs), static_cast<double>(failed),
                     cell(surrogate.leave_one_out_error), cell(surrogate.leave_one_out_sigma),
                     cell(surrogate.inflation)});
   }

@@ -65,7 +65,8 @@ std::optional<SavedRun> saved_run_in(const fs::path& file) {
     SavedRun run{.experiment = simulated.at("experiment"),
                  .values = {},
                  .readings = readings_of(result),
-                 .failure = result.failure};
+                 .failure = result.failure,
+                 .is_coarse = simulated.contains("grain_size")};
     for (const auto& [pair, contact] : simulated.items()) {
       if (!pair.starts_with("particle_")) continue;
       for (const auto& [name, value] : contact.items()) {

@@ -31,6 +31,7 @@ std::string command_to_go_on(const ReportedStudy& study) {
     } else if (study.study->budget != "quick") {
       command += " --budget " + quoted_word(study.study->budget);
     }
+    if (study.study->is_mixed == false) command += " --fidelity full";
     for (const std::string& setting : study.study->settings) {
       command += " --set " + quoted_word(setting);
     }

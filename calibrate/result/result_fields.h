@@ -29,7 +29,7 @@ void fields(Io& io, Held<Io, StudyIdentity>& study) {
   io.object("budget", [&](Io& inner) {
     inner("name", study.budget);
     inner("description", study.budget_description);
-    if (inner.has("mixed", study.is_mixed)) inner("mixed", study.is_mixed);
+    if (inner.has("mixed", study.is_mixed.has_value())) inner("mixed", study.is_mixed);
   });
 }
 
@@ -363,6 +363,7 @@ template <typename Io>
 void fields(Io& io, Held<Io, CoarseQuality>& coarse) {
   io("size", coarse.size);
   io("runs", coarse.runs);
+  io("failed_runs", coarse.failed_runs);
   io("shift", coarse.shift);
   io("shift_uncertainty", coarse.uncertainty);
   io("scatter", coarse.scatter);

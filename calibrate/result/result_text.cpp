@@ -317,15 +317,18 @@ std::string coarse_text(const JointResult& joint) {
   for (std::size_t k = 0; k < joint.surrogates.size(); ++k) {
     const SurrogateQuality& surrogate = joint.surrogates[k];
     if (!surrogate.coarse) continue;
+    const CoarseQuality& coarse = *surrogate.coarse;
     const std::string& unit = joint.observables[k].unit;
     text += fmt::format(
         "{}{} of {} runs of {} were of grains {:.3g} times as large, which are taken to read "
         "{:+.2g} "
         "± {:.2g}{}{} beside the study's (95 %) and scatter {:.2g} times as much",
-        text.empty() ? "" : "; ", surrogate.coarse->runs, surrogate.runs, surrogate.observable,
-        surrogate.coarse->size, surrogate.coarse->shift,
-        base::kNormal95 * surrogate.coarse->uncertainty, unit.empty() ? "" : " ", unit,
-        surrogate.coarse->scatter);
+        text.empty() ? "" : "; ", coarse.runs, surrogate.runs, surrogate.observable, coarse.size,
+        coarse.shift, base::kNormal95 * coarse.uncertainty, unit.empty() ? "" : " ", unit,
+        coarse.scatter);
+    if (coarse.failed_runs > 0) {
+      text += fmt::format("; {} more of these gave no reading", coarse.failed_runs);
+    }
   }
   return text;
 }

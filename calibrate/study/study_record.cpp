@@ -139,7 +139,7 @@ Json notes_json(const StudyNotes& notes) {
   const StudyIdentity& study = notes.study;
   Json budget = {{"name", study.budget}, {"description", study.budget_description}};
   if (notes.limits) budget["limits"] = limits_json(*notes.limits);
-  if (study.is_mixed) budget["mixed"] = true;
+  if (study.is_mixed) budget["mixed"] = *study.is_mixed;
   return {{"program", study.program},
           {"study", {{"file", study.file}, {"hash", study.hash}, {"settings", study.settings}}},
           {"method", study.method},
@@ -148,6 +148,10 @@ Json notes_json(const StudyNotes& notes) {
           {"sheets", sheets_json(notes.measurement.sheets)},
           {"films", films_json(notes.measurement.films)},
           {"files", notes.fingerprints}};
+}
+
+std::optional<bool> mixed_in(const Json& budget) {
+  return budget.contains("mixed") ? std::optional(budget.at("mixed").get<bool>()) : std::nullopt;
 }
 
 StudyNotes notes_in(const Json& json) {
@@ -160,7 +164,7 @@ StudyNotes notes_in(const Json& json) {
                     .method = json.at("method"),
                     .budget = budget.at("name"),
                     .budget_description = budget.at("description"),
-                    .is_mixed = budget.value("mixed", false)},  // earlier versions: none was
+                    .is_mixed = mixed_in(budget)},
           // Earlier versions had no sheets, nor films.
           .measurement = {.sheets = sheets_in(json.value("sheets", Json::array())),
                           .pictures = pictures_in(json.at("pictures")),
@@ -173,7 +177,8 @@ StudyNotes notes_in(const Json& json) {
 
 bool is_same_study(const StudyIdentity& one, const StudyIdentity& other) {
   return one.hash == other.hash && one.settings == other.settings && one.method == other.method &&
-         one.budget == other.budget && one.is_mixed == other.is_mixed;
+         one.budget == other.budget &&
+         one.is_mixed.value_or(false) == other.is_mixed.value_or(false);
 }
 
 StudyIdentity identity_of(const StudyRecord& record) {
@@ -184,8 +189,9 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .method = record.method,
           .budget = record.budget.name,
           .budget_description = record.budget.description,
-          .is_mixed = record.method == "joint" && !record.budget.is_full &&
-                      has_coarse_runs(record.study, record.grain.shape)};
+          .is_mixed = record.method == "joint" && has_coarse_runs(record.study, record.grain.shape)
+                          ? std::optional(!record.budget.is_full)
+                          : std::nullopt};
 }
 
 namespace {
@@ -259,7 +265,7 @@ StudyRecord read_study_record(const fs::path& folder) {
   record.settings = notes->study.settings;
   record.method = notes->study.method;
   record.budget = notes->limits ? *notes->limits : budget_named(notes->study.budget);
-  record.budget.is_full = !notes->study.is_mixed;
+  record.budget.is_full = !notes->study.is_mixed.value_or(false);
   record.measurement = notes->measurement;
   record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));
   record.study =

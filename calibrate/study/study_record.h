@@ -33,7 +33,8 @@ struct StudyIdentity {
   std::string method;                 ///< "joint" or "paper"
   std::string budget;
   std::string budget_description;
-  bool is_mixed = false;  ///< some of its runs are coarse ones
+  /// Some of its runs are coarse ones; none: it has no experiment of which any could be.
+  std::optional<bool> is_mixed = {};
 };
 
 /// The same study, settings, method, budget and kinds of runs, whichever version of the program

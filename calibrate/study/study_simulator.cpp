@@ -116,7 +116,9 @@ struct StudySimulator::FinerGrains {
     const auto found = larger.find(size);
     if (found != larger.end()) return found->second;
     dem::scale(clump, size);
-    return larger.try_emplace(size, clump).first->second;
+    Grain& grain = larger.try_emplace(size, clump).first->second;
+    grain.named.size = size;
+    return grain;
   }
 };
 

@@ -24,7 +24,9 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Ge;
+using ::testing::HasSubstr;
 using ::testing::Le;
+using ::testing::Not;
 
 /// Balls in a tube that holds about 1,900 of them.
 constexpr const char* kHeapOfMany = R"([experiment.heap]
@@ -98,6 +100,8 @@ TEST_F(CoarseStudy, TheSameClumpIsLargerAndAllElseStays) {
   EXPECT_EQ(larger.model.stiffness_factor, full.model.stiffness_factor);
   EXPECT_EQ(larger.model.grain_wall.sliding_friction, full.model.grain_wall.sliding_friction);
   EXPECT_NE(key_of(larger, 3), key_of(full, 3));
+  EXPECT_THAT(description_of(larger, 3), HasSubstr("grain_size"));
+  EXPECT_THAT(description_of(full, 3), Not(HasSubstr("grain_size")));
 }
 
 TEST_F(CoarseStudy, ACoarseRunHasAsFewGrainsAsForeseen) {

@@ -254,5 +254,24 @@ TEST(CoarseRuns, OneThatFailsSaysNothingOfFullOnes) {
   EXPECT_THAT(attempts.failed, Each(false));
 }
 
+TEST(CoarseRuns, ThoseThatFailAreCountedByThemselves) {
+  const Problem problem = coarse_problem();
+  fake::Runs runs = fake::first_runs(problem);
+  int failing = 2;
+  for (auto& run : runs) {
+    if (run.job.inputs.size == 1 || failing-- <= 0) continue;
+    run.readings.clear();
+    run.failure = "no heap";
+  }
+  int seen = 0;
+  for (const SurrogateQuality& surrogate : fit_jointly(problem, runs).surrogates) {
+    EXPECT_EQ(surrogate.failed_runs, 0) << surrogate.observable;
+    if (!surrogate.coarse) continue;
+    EXPECT_EQ(surrogate.coarse->failed_runs, 2) << surrogate.observable;
+    ++seen;
+  }
+  EXPECT_GT(seen, 0);
+}
+
 }  // namespace
 }  // namespace repose::calibrate

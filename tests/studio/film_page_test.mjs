@@ -11,11 +11,9 @@
 // with the keyboard alone. Nothing is fetched from elsewhere, no error is told, axe finds nothing
 // serious, nothing is wider than a telephone.
 import assert from 'node:assert/strict';
-import {mkdirSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readFileSync} from 'node:fs';
 import {join, resolve} from 'node:path';
-import puppeteer from 'puppeteer-core';
-import {angle, button, click, drag, drop, end, endAll, isOff, kPatience_ms, lookAt, open, startStudio, textOf, until} from './hands.mjs';
+import {angle, button, click, drag, drop, end, isOff, lookAt, open, sitDown, startStudio, textOf, until} from './hands.mjs';
 
 const [repose, chromium, films, pictures] = process.argv.slice(2);
 
@@ -145,15 +143,4 @@ const sit = async (browser, folder) => {
   assert.equal(await end(studio, 'SIGINT'), 0);
 };
 
-const above = mkdtempSync(join(tmpdir(), 'repose-studio-'));
-const folder = join(above, 'peas_on_wood');
-mkdirSync(folder);
-if (pictures) mkdirSync(pictures, {recursive: true});
-const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
-try {
-  await sit(browser, folder);
-} finally {
-  await endAll();
-  await browser.close();
-  rmSync(above, {recursive: true});
-}
+await sitDown(chromium, 'peas_on_wood', pictures, sit);

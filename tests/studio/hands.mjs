@@ -1,9 +1,11 @@
 // What hands do at the studio's page, and eyes: starting it, clicks, drags, drops, looking.
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
-import {readFileSync} from 'node:fs';
+import {mkdirSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
+import {tmpdir} from 'node:os';
 import {basename, dirname, join, resolve as absolute} from 'node:path';
+import puppeteer from 'puppeteer-core';
 import {openWatched} from '../support/watched_page.mjs';
 
 export const kPatience_ms = 120_000;
@@ -33,10 +35,25 @@ export const end = (studio, signal) => {
   return ended;
 };
 
-// For the end of a test, however it ends.
-export const endAll = async () => {
+const endAll = async () => {
   for (const studio of studios) {
     if (studio.exitCode === null && studio.signalCode === null) await end(studio, 'SIGKILL');
+  }
+};
+
+// One sitting, with a browser and an empty folder of that name. Nothing is left, however it ends.
+export const sitDown = async (chromium, name, pictures, sit) => {
+  const above = mkdtempSync(join(tmpdir(), 'repose-studio-'));
+  const folder = join(above, name);
+  mkdirSync(folder);
+  if (pictures) mkdirSync(pictures, {recursive: true});
+  const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
+  try {
+    await sit(browser, folder);
+  } finally {
+    await endAll();
+    await browser.close();
+    rmSync(above, {recursive: true});
   }
 };
 

@@ -14,12 +14,10 @@
 // disks that are full are told and leave nothing behind, and a folder has one studio at a time.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {closeSync, copyFileSync, existsSync, mkdirSync, mkdtempSync, openSync, readFileSync, readdirSync, rmSync, truncateSync} from 'node:fs';
-import {tmpdir} from 'node:os';
-import {join, resolve} from 'node:path';
-import puppeteer from 'puppeteer-core';
+import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, readdirSync, rmSync, truncateSync} from 'node:fs';
+import {dirname, join, resolve} from 'node:path';
 import {unzipped} from '../support/zip_file.mjs';
-import {angle, button, choose, click, drag, drop, end, endAll, isOff, kPatience_ms, lookAt, onScreen, open, startStudio, textOf, until, untilMeasured} from './hands.mjs';
+import {angle, button, choose, click, drag, drop, end, isOff, lookAt, onScreen, open, sitDown, startStudio, textOf, until, untilMeasured} from './hands.mjs';
 
 const [repose, chromium, photos, pictures] = process.argv.slice(2);
 
@@ -308,18 +306,9 @@ const sit = async (browser, folder) => {
   await until(page, () => /has ended/.test(document.querySelector('[role=alert]').textContent));
 };
 
-const folder = mkdtempSync(join(tmpdir(), 'repose-studio-'));
-const heaps = join(folder, 'hazelnuts');
-mkdirSync(heaps);
-if (pictures) mkdirSync(pictures, {recursive: true});
-const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
-try {
-  await sit(browser, heaps);
-  const full = join(folder, 'full');
+await sitDown(chromium, 'hazelnuts', pictures, async (browser, folder) => {
+  await sit(browser, folder);
+  const full = join(dirname(folder), 'full');
   mkdirSync(full);
   await sitWithAFullDisk(browser, full);
-} finally {
-  await endAll();
-  await browser.close();
-  rmSync(folder, {recursive: true});
-}
+});

@@ -11,11 +11,9 @@
 // coefficients exported. Nothing is fetched from elsewhere, no error is told, axe finds nothing serious,
 // nothing is wider than a telephone.
 import assert from 'node:assert/strict';
-import {mkdirSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
-import puppeteer from 'puppeteer-core';
-import {button, click, end, endAll, kPatience_ms, lookAt, open, startStudio, textOf, until} from './hands.mjs';
+import {button, click, end, kPatience_ms, lookAt, open, sitDown, startStudio, textOf, until} from './hands.mjs';
 
 const [repose, chromium, pictures] = process.argv.slice(2);
 
@@ -174,15 +172,4 @@ const sit = async (browser, folder) => {
   assert.equal(await end(studio, 'SIGINT'), 0);
 };
 
-const above = mkdtempSync(join(tmpdir(), 'repose-studio-'));
-const folder = join(above, 'peas_on_wood');
-mkdirSync(folder);
-if (pictures) mkdirSync(pictures, {recursive: true});
-const browser = await puppeteer.launch({executablePath: chromium, args: ['--no-sandbox'], protocolTimeout: kPatience_ms});
-try {
-  await sit(browser, folder);
-} finally {
-  await endAll();
-  await browser.close();
-  rmSync(above, {recursive: true});
-}
+await sitDown(chromium, 'peas_on_wood', pictures, sit);
