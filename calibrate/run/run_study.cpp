@@ -17,6 +17,7 @@
 #include "calibrate/published/published_method.h"
 #include "calibrate/run/check_heaps.h"
 #include "calibrate/simulators/simulators.h"
+#include "calibrate/study/impossible_readings.h"
 #include "calibrate/study/study_estimate.h"
 #include "calibrate/study/study_run.h"
 

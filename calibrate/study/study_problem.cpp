@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,10 +30,7 @@ std::vector<std::string> measurable(const dem::ExperimentEntry& entry) {
 }
 
 std::string unit_of(const dem::ExperimentEntry& entry, const std::string& reading) {
-  for (const dem::Reading& known : entry.readings) {
-    if (known.name == reading) return std::string(known.unit);
-  }
-  return std::string(entry.unit);
+  return std::string(reading == "value" ? entry.unit : dem::reading_named(entry, reading).unit);
 }
 
 /// About how long a run takes, s. Coefficients still open do not matter much to it.
@@ -145,20 +140,6 @@ Observable observable_of(const dem::Measured& measured, double usual_scatter) {
   observable.n = repeats.n;
   count_uncertainty(measured.value_uncertainty.value_or(0), usual_scatter, observable);
   return observable;
-}
-
-/// What a bench can have read, in the experiment's unit.
-dem::Range measurable_range(const dem::Study& study, const dem::ClumpShape& grain,
-                            const dem::ExperimentEntry& entry) {
-  dem::Model model = dem::model_for(study, &entry);
-  model.grain = grain;
-  dem::Range range = entry.possible(model, study.experiments.at(&entry).protocol);
-  if (entry.least_of_possible > 0) range.from = entry.least_of_possible * range.to;
-  return range;
-}
-
-const dem::Reading& reading_named(const dem::ExperimentEntry& entry, const std::string& name) {
-  return *std::ranges::find(entry.readings, name, &dem::Reading::name);
 }
 
 Observable with(const dem::SystematicFraction& systematic, Observable observable) {
@@ -293,7 +274,7 @@ class StudyProblemBuilder {
       observable.n = reading.count.value_or(1);
       observable.tolerance = reading.tolerance;
       share(reading.systematic, observable);
-      const dem::Reading& known = reading_named(entry, reading.name);
+      const dem::Reading& known = dem::reading_named(entry, reading.name);
       observable.has_own_trials = known.has_own_trials;
       if (known.shares_systematic) observable = with(systematic, observable);
       add(observable, entry, reading.name);
@@ -407,167 +388,10 @@ bool is_definition_assumed(const dem::ExperimentEntry& entry,
   return entry.is_pictured && described.definition.empty() && is_told && !is_ours;
 }
 
-namespace {
-
-/// None known; what is stated of readings that share more than they are is a slip of the unit.
-double stated_bias(const std::vector<dem::Systematic>& parts) {
-  const auto stated = std::ranges::find(parts, dem::kBiasKey, &dem::Systematic::name);
-  return stated == parts.end() ? 0 : stated->sd;
-}
-
-base::Fault too_large_bias(const dem::Study& study, const std::string& where, double bias,
-                           double most, std::string_view unit) {
-  return {.where = study.file.string(),
-          .subject = fmt::format("{}.{}", where, dem::kBiasKey),
-          .value = fmt::format("= {:.4g} {}", bias, unit),
-          .rule = fmt::format("a standard uncertainty that all readings share, no larger than they "
-                              "are themselves: {:.4g} {} at most",
-                              most, unit),
-          .fix =
-              "give it in the unit of the readings; of a ruler, a protractor or a board at most a "
-              "few percent of them."};
-}
-
-/// Readings near 0 may be as uncertain as a hundredth of what there is to read.
-void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
-                const dem::Measured& measured, const dem::Range& range,
-                std::vector<base::Fault>& errors) {
-  constexpr double kMinOfRange = .01;
-  const std::string where = fmt::format("[experiment.{}]", entry.name);
-  double largest = kMinOfRange * (range.to - range.from);
-  for (const double value : measured.values) largest = std::max(largest, std::abs(value));
-  if (measured.mean) largest = std::max(largest, std::abs(*measured.mean));
-  const bool is_measured = measured.mean || !measured.values.empty();
-  const double most = is_measured ? largest : range.to;
-  if (const double bias = stated_bias(measured.systematic); bias > most) {
-    errors.push_back(too_large_bias(study, where + " measured", bias, most, entry.unit));
-  }
-  for (const dem::MeasuredReading& reading : measured.also) {
-    const double bias = stated_bias(reading.systematic);
-    if (bias <= std::abs(reading.mean)) continue;
-    errors.push_back(too_large_bias(study, where + " also_measured." + reading.name, bias,
-                                    std::abs(reading.mean), unit_of(entry, reading.name)));
-  }
-}
-
-/// Readings beside the value that are above what they can be.
-void find_impossible_readings(const dem::Study& study, const dem::ClumpShape& grain,
-                              const dem::ExperimentEntry& entry,
-                              const dem::StudyExperiment& described,
-                              std::vector<base::Fault>& errors) {
-  dem::Model model = dem::model_for(study, &entry);
-  model.grain = grain;
-  for (const dem::MeasuredReading& reading : described.measured.also) {
-    const dem::Reading& known = reading_named(entry, reading.name);
-    const auto limit =
-        known.limit == nullptr ? std::nullopt : known.limit(model, described.protocol);
-    if (!limit || reading.mean <= limit->most) continue;
-    errors.push_back(
-        {.where = study.file.string(),
-         .value = fmt::format("[experiment.{}.also_measured] {} = {:.10g} {}", entry.name,
-                              reading.name, reading.mean, known.unit),
-         .rule = fmt::format("at most {:.4g} {}, {}", limit->most, known.unit, limit->reason),
-         .fix = "correct the reading, or the study."});
-  }
-}
-
-}  // namespace
-
-std::vector<base::Fault> impossible_readings(const dem::Study& study,
-                                             const dem::ClumpShape& grain) {
-  std::vector<base::Fault> errors;
-  for (const auto& [experiment, described] : study.experiments) {
-    find_impossible_readings(study, grain, *experiment, described, errors);
-    const dem::ExperimentEntry& entry = *experiment;
-    const dem::Range range = measurable_range(study, grain, entry);
-    std::vector<double> readings = described.measured.values;
-    if (described.measured.mean) readings.push_back(*described.measured.mean);
-    check_bias(study, entry, described.measured, range, errors);
-    const auto impossible = std::find_if(readings.begin(), readings.end(),
-                                         [&](double value) { return !range.contains(value); });
-    if (impossible == readings.end()) continue;
-    constexpr double kThousand = 1000;
-    const std::string thousands =
-        range.contains(kThousand * *impossible)
-            ? fmt::format("{:.10g} if a point parts thousands or the unit is another one; ",
-                          kThousand * *impossible)
-            : "";
-    errors.push_back(
-        {.where = study.file.string(),
-         .value = fmt::format("[experiment.{}] measured = {:.10g} {}", entry.name, *impossible,
-                              entry.unit),
-         .rule = fmt::format("its {} is from {:.4g} to {:.4g} {} with this grain and protocol",
-                             entry.value_name, range.from, range.to, entry.unit),
-         .fix = thousands + "correct the reading, or the study."});
-  }
-  return errors;
-}
-
-std::string name_of_minutes(double minutes) { return fmt::format("{:g}min", minutes); }
-
-std::optional<double> minutes_in(const std::string& budget) {
-  constexpr std::string_view kUnit = "min";
-  if (!budget.ends_with(kUnit)) return std::nullopt;
-  const std::string digits = budget.substr(0, budget.size() - kUnit.size());
-  char* end = nullptr;
-  const double minutes = std::strtod(digits.c_str(), &end);
-  if (digits.empty() || *end != '\0' || !(minutes > 0)) return std::nullopt;
-  return minutes;
-}
-
 bool has_coarse_runs(const dem::Study& study, const dem::ClumpShape& grain) {
   return std::ranges::any_of(study.experiments, [&](const auto& described) {
     return coarse_size(*described.first, described.second.protocol, grain).has_value();
   });
-}
-
-Budget budget_named(const std::string& name) {
-  constexpr double kMinute_s = 60;
-  if (name == "quick") {
-    return {.name = name,
-            .description = "14 minutes of one core for the fit",
-            .settings = {.budget_s = 14 * kMinute_s, .max_jobs = 400, .max_rounds = 4},
-            .round_repeats = 6,
-            .verification_repeats = 24,
-            .family_sets = 2};
-  }
-  if (name == "standard") {
-    return {.name = name,
-            .description = "125 minutes of one core for the fit",
-            .settings = {.budget_s = 125 * kMinute_s, .max_jobs = 2000, .max_rounds = 6},
-            .round_repeats = 6,
-            .verification_repeats = 24,
-            .family_sets = 3};
-  }
-  if (name == "paper") {
-    return {.name = name,
-            .description = "62 simulations at most for the fit, as many as the publication made",
-            .settings = {.budget_s = 60 * kMinute_s, .max_jobs = 62, .max_rounds = 3},
-            .round_repeats = 6,
-            .verification_repeats = 24,
-            .family_sets = 0};
-  }
-  throw base::InputError({.subject = "budget",
-                          .value = fmt::format("= {}:", name),
-                          .rule = "must be quick, standard or paper",
-                          .fix = "choose quick."});
-}
-
-Budget with_affordable_checks(Budget budget, const Problem& problem) {
-  constexpr double kChecks = .5;  // of the seconds of the fit
-  constexpr int kFewest = 4, kFewestOfRound = 2;
-  double dearest_s = 0;
-  for (const Experiment& experiment : measured_experiments(problem)) {
-    if (experiment.coarse) dearest_s = std::max(dearest_s, experiment.run_s);
-  }
-  if (dearest_s == 0 || budget.minutes) return budget;
-  const double affordable = kChecks * problem.settings.budget_s / dearest_s;
-  if (affordable >= budget.verification_repeats) return budget;
-  budget.verification_repeats = std::max(kFewest, static_cast<int>(affordable));
-  budget.round_repeats = std::clamp(budget.verification_repeats / 2, kFewestOfRound,
-                                    std::max(budget.round_repeats, kFewestOfRound));
-  budget.family_sets = 0;
-  return budget;
 }
 
 StudyProblem problem_of(const dem::Study& study, const dem::ClumpFile& grain,

@@ -13,7 +13,7 @@
 #include "calibrate/experiment/run_store.h"
 #include "calibrate/simulators/simulators.h"
 #include "calibrate/statistics/summary.h"
-#include "calibrate/study/study_problem.h"
+#include "calibrate/study/impossible_readings.h"
 #include "cli/common/option_value.h"
 #include "cli/common/output.h"
 #include "cli/simulate/simulate_runs.h"

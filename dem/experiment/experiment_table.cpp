@@ -85,6 +85,10 @@ base::InputError with_study_keys(const base::InputError& error, const Protocol& 
   return base::InputError(std::move(faults));
 }
 
+const Reading& reading_named(const ExperimentEntry& entry, std::string_view name) {
+  return *std::ranges::find(entry.readings, name, &Reading::name);
+}
+
 Range readable_in(std::string_view unit) {
   return unit == "deg" ? from_to(0, 90) : from_to(0, std::numeric_limits<double>::infinity());
 }

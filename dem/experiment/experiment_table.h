@@ -218,6 +218,9 @@ std::string name_of(Experiment experiment);
 /// file added: nobody has to guess that a size was never given, or what it is called there.
 base::InputError with_study_keys(const base::InputError& error, const Protocol& protocol);
 
+/// One of entry.readings, by its name.
+const Reading& reading_named(const ExperimentEntry& entry, std::string_view name);
+
 /// What a bench can read in a unit: lengths, angles and counts are 0 or more, angles at most 90.
 Range readable_in(std::string_view unit);
 

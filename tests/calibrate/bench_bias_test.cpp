@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "calibrate/study/impossible_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/study/grain_source.h"
 #include "tests/calibrate/sphere_study.h"

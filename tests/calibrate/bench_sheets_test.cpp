@@ -5,6 +5,7 @@
 
 #include "calibrate/bench/bench_readings.h"
 #include "calibrate/statistics/bench/sheet.h"
+#include "calibrate/study/impossible_readings.h"
 #include "calibrate/study/study_problem.h"
 #include "dem/experiment/experiment_table.h"
 #include "dem/study/grain_source.h"
