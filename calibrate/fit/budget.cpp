@@ -33,7 +33,7 @@ std::vector<double> bought(const std::vector<Experiment>& experiments,
 }  // namespace
 
 int full_runs_of_first_round(const Experiment& experiment) {
-  constexpr int kFull = 3;
+  constexpr int kFull = 2;
   return experiment.coarse ? kFull : 0;
 }
 

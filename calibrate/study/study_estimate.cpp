@@ -166,7 +166,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
     count(Phase::equal_sets, budget.family_sets * check_runs(problem, name, kFamilyRepeats),
           estimate);
     count(Phase::checks,
-          (kMaxCheckRounds - 1) * check_runs(problem, name, budget.round_repeats) +
+          (budget.check_rounds - 1) * check_runs(problem, name, budget.round_repeats) +
               check_runs(problem, name, budget.verification_repeats),
           estimate);
   }

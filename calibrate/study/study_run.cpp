@@ -91,7 +91,7 @@ bool simulate_equivalent_sets(const Problem& problem, const Budget& budget, JobR
     tried.push_back(set.values);
   }
   const auto checks = runner.get("checking equally good sets", jobs,
-                                 checks_s(problem, budget, kMaxCheckRounds) +
+                                 checks_s(problem, budget, budget.check_rounds) +
                                      last_runs_s(problem, budget.verification_repeats));
   if (!checks) return false;
   outcome.runs = joined(std::move(outcome.runs), *checks);
@@ -159,9 +159,9 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
   outcome.fit = fit_jointly(problem, outcome.runs);
   for (;;) {
     Check check(problem, outcome);
-    const int rounds_left = kMaxCheckRounds - outcome.check_rounds;
+    const int rounds_left = budget.check_rounds - outcome.check_rounds;
     const auto few = runner.get(
-        fmt::format("check {} of at most {}", outcome.check_rounds, kMaxCheckRounds),
+        fmt::format("check {} of at most {}", outcome.check_rounds, budget.check_rounds),
         check.jobs(budget.round_repeats), checks_s(problem, budget, rounds_left) + last_s);
     if (!few) return false;
     if (!check.add(*few, tried) && rounds_left > 0) continue;

@@ -15,7 +15,6 @@
 
 namespace repose::calibrate {
 
-inline constexpr int kMaxCheckRounds = 3;
 inline constexpr int kFamilyRepeats = 2;  ///< of an equally good set
 
 /// An equally good set of parameters that was simulated.
