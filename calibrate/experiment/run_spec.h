@@ -26,7 +26,7 @@ struct RunSpec {
   dem::Protocol protocol;
   dem::Model model;  ///< with the grain, and all coefficients that the experiment needs
   std::string grain_fingerprint;
-  double grain_size = 1;  ///< NamedGrain::size
+  double grain_size = 1;               ///< NamedGrain::size
   HeapViewing viewing = {.views = 0};  ///< none of experiments that are not pictured
   std::string definition = {};         ///< as RunResult::definition: how it is read, not what it is
   std::shared_ptr<const Simulator> simulator = own_simulator();  ///< that makes it

@@ -26,7 +26,7 @@ CheckSample check_sample(const Problem& problem, const std::vector<double>& valu
                          const AssumedInputs& inputs) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
   const Job at = job_at(problem, experiment, to_unit(problem, values), 0);
-  CheckSample sample;
+  CheckSample sample{.readings = {}, .is_coarse = inputs.size != 1};
   for (const Run& run : runs) {
     if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
     if (run.job.inputs != inputs) continue;
@@ -44,8 +44,12 @@ CheckSample check_sample(const Problem& problem, const std::vector<double>& valu
 RunScatter scatter_of(const CheckSample& sample, const JointFit* fit, std::size_t observable) {
   const RunScatter seen{sample.sd(), sample.count() - 1};
   if (fit == nullptr || sample.count() < 2) return seen;
-  const RunScatter known{fit->observables[observable].simulated_sd,
-                         fit->surrogates[observable].scatter_df()};
+  const SurrogateQuality& quality = fit->surrogates[observable];
+  RunScatter known{fit->observables[observable].simulated_sd, quality.scatter_df()};
+  if (sample.is_coarse) {
+    if (!quality.coarse) return seen;
+    known = {known.sd * quality.coarse->scatter, std::max(quality.coarse->runs - 1, 1)};
+  }
   return known.sd > seen.sd ? known : seen;
 }
 

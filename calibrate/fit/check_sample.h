@@ -21,6 +21,7 @@ inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 struct CheckSample {
   std::vector<double> readings;
   int failed = 0;
+  bool is_coarse = false;  ///< of coarse runs, which have a scatter of their own
 
   int count() const { return static_cast<int>(readings.size()); }
   double mean() const;
@@ -38,8 +39,8 @@ struct RunScatter {
   int df = 1;
 };
 
-/// The larger of what the sample shows and, where there is a fit, of what all runs show: a handful
-/// that happens to agree is not trusted over them. NaN from one run.
+/// The larger of what the sample shows and, where there is a fit, of what all runs of its kind
+/// show: a handful that happens to agree is not trusted over them. NaN from one run.
 RunScatter scatter_of(const CheckSample& sample, const JointFit* fit, std::size_t observable);
 
 /// With the uncertainty that this scatter gives it. NaN without a reading, its uncertainty from

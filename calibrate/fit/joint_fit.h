@@ -110,8 +110,8 @@ struct CoarseQuality {
 /// How well a surrogate knows its experiment.
 struct SurrogateQuality {
   std::string observable;
-  int runs = 0;         ///< with a reading, coarse ones too
-  int failed_runs = 0;  ///< full ones without
+  int runs = 0;                       ///< with a reading, coarse ones too
+  int failed_runs = 0;                ///< full ones without
   double warp = 0;                    ///< y enters as asinh(y / warp); 0: as it is
   std::vector<double> length_scales;  ///< fractions of the bounds' distance; long: little effect
   double leave_one_out_sigma = 0;     ///< rms of standardised leave-one-out errors; 1 is right

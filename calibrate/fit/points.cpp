@@ -68,7 +68,8 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
 }
 
 double run_s_of(const Experiment& experiment, const AssumedInputs& inputs) {
-  return experiment.run_s * inputs.step.work * std::sqrt(inputs.stiffness) *
+  constexpr double kStepsByStiffness = .4;
+  return experiment.run_s * inputs.step.work * std::pow(inputs.stiffness, kStepsByStiffness) *
          (1 + experiment.spheres_share * (inputs.spheres - 1)) / std::pow(inputs.size, 4);
 }
 

@@ -56,9 +56,10 @@ Point seen_by(const Experiment& experiment, const Point& point);
 Job job_at(const Problem& problem, const Experiment& experiment, const Point& point,
            std::uint64_t seed);
 
-/// About how long a run with these inputs takes, s: the stable time step goes with the size of the
-/// grains and the root of one over the stiffness, the search for contacts with the number of
-/// spheres, and as many grains fill a vessel as one over the cube of their size.
+/// About how long a run with these inputs takes, s. The stable time step goes with the size of the
+/// grains and the stiffness to the power of -2/5 (2 / sqrt(k / m) of a Hertz contact in an impact:
+/// dem/engine/time_step.h), the search for contacts with the number of spheres, and as many grains
+/// fill a vessel as one over the cube of their size.
 double run_s_of(const Experiment& experiment, const AssumedInputs& inputs);
 
 /// Of most of its runs, likewise.

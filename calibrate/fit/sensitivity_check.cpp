@@ -18,6 +18,7 @@ constexpr double kStiffer = 10;
 constexpr int kMoreSpheres = 4;
 constexpr double kMaxOfBudget = .2;
 constexpr int kFewestRepeats = 5;
+constexpr int kCoarseRepeats = 24;  // cheap, and each scatters more than a full run
 constexpr double kInterval = .975;
 
 /// The value to be simulated, and the same as a multiple of the study's; 1 where none is nearer to
@@ -30,6 +31,7 @@ struct Nearer {
 
 Nearer nearer(const Problem& problem, const Experiment& experiment, AssumedInput input) {
   Nearer found;
+  found.inputs = experiment.usual_inputs();
   if (input == AssumedInput::stiffness) {
     found.multiple = std::min(kStiffer, experiment.real_stiffness);
     found.value = found.multiple / experiment.real_stiffness;
@@ -49,13 +51,15 @@ bool is_of(const std::vector<Observable>& observables, const Experiment& experim
   });
 }
 
+/// Those among the jobs that were made cost nothing, and are not made again.
 void add_jobs(const Problem& problem, const Experiment& experiment,
               const std::vector<double>& values, int repeats, const AssumedInputs& inputs,
-              SensitivityPlan& plan) {
+              const std::vector<Job>& made, SensitivityPlan& plan) {
   for (int k = 0; k < (experiment.is_stochastic ? repeats : 1); ++k) {
     Job job = job_at(problem, experiment, to_unit(problem, values),
                      problem.settings.seed + kFirstSensitivitySeed + static_cast<std::uint64_t>(k));
     job.inputs = inputs;
+    if (std::ranges::find(made, job) != made.end()) continue;
     plan.run_s += run_s_of(experiment, inputs);
     plan.jobs.push_back(std::move(job));
   }
@@ -63,13 +67,13 @@ void add_jobs(const Problem& problem, const Experiment& experiment,
 
 /// One experiment alone.
 SensitivityPlan plan_of(const Problem& problem, const Experiment& experiment,
-                        const AssumedInputs& inputs, const std::vector<double>& values,
-                        int repeats) {
+                        const AssumedInputs& inputs, const std::vector<double>& values, int repeats,
+                        const std::vector<Job>& made) {
   SensitivityPlan plan;
-  if (!is_of(problem.observables, experiment)) {
-    add_jobs(problem, experiment, values, repeats, {}, plan);
+  if (!is_of(problem.observables, experiment) || experiment.coarse) {
+    add_jobs(problem, experiment, values, repeats, experiment.usual_inputs(), made, plan);
   }
-  add_jobs(problem, experiment, values, repeats, inputs, plan);
+  add_jobs(problem, experiment, values, repeats, inputs, made, plan);
   return plan;
 }
 
@@ -77,9 +81,10 @@ SensitivityPlan plan_of(const Problem& problem, const Experiment& experiment,
 std::optional<SensitivityPlan> plan_within(double seconds, const Problem& problem,
                                            const Experiment& experiment,
                                            const AssumedInputs& inputs,
-                                           const std::vector<double>& values, int repeats) {
+                                           const std::vector<double>& values, int repeats,
+                                           const std::vector<Job>& made) {
   for (int fewer = repeats; fewer >= std::min(kFewestRepeats, repeats); --fewer) {
-    SensitivityPlan plan = plan_of(problem, experiment, inputs, values, fewer);
+    SensitivityPlan plan = plan_of(problem, experiment, inputs, values, fewer, made);
     if (plan.run_s <= seconds) return plan;
   }
   return std::nullopt;
@@ -130,13 +135,15 @@ std::optional<SensitivityCheck> check_of(const Problem& problem, AssumedInput in
   const Nearer other = nearer(problem, experiment, input);
   if (other.multiple <= 1) return std::nullopt;
   const CheckSample changed = check_sample(problem, values, observable, runs, other.inputs);
-  const CheckSample own = check_sample(problem, values, observable, runs);
+  const CheckSample own =
+      check_sample(problem, values, observable, runs, experiment.usual_inputs());
   if (changed.count() + changed.failed == 0) return std::nullopt;
   SensitivityCheck check{.name = observable.name,
                          .unit = observable.unit,
                          .input = input,
                          .multiple = other.multiple,
                          .value = other.value,
+                         .grain_size = other.inputs.size,
                          .change = kNone,
                          .uncertainty = kNone,
                          .interval = {kNone, kNone},
@@ -144,7 +151,11 @@ std::optional<SensitivityCheck> check_of(const Problem& problem, AssumedInput in
                          .limit = half_width_95(asked),
                          .runs = changed.count(),
                          .failed_runs = changed.failed};
-  if (changed.count() == 0 && own.count() > 0) check.verdict = AgreementVerdict::disagrees;
+  // Larger grains may make no heap where the study's do.
+  const bool is_full = check.grain_size == 1;
+  if (is_full && changed.count() == 0 && own.count() > 0) {
+    check.verdict = AgreementVerdict::disagrees;
+  }
   const UncertainMean change =
       difference_of(asked.mean(changed, experiment), asked.mean(own, experiment));
   if (std::isfinite(change.value) && std::isfinite(change.uncertainty)) {
@@ -156,7 +167,8 @@ std::optional<SensitivityCheck> check_of(const Problem& problem, AssumedInput in
 }  // namespace
 
 SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
-                                 const std::vector<double>& values, int repeats) {
+                                 const std::vector<double>& values, int repeats,
+                                 const std::vector<Job>& made) {
   const auto inputs_of = [&](const Experiment& experiment) {
     return nearer(problem, experiment, input).inputs;
   };
@@ -172,8 +184,9 @@ SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
   SensitivityPlan plan;
   for (const Experiment& experiment : open) {
     const double left_s = kMaxOfBudget * problem.settings.budget_s - plan.run_s;
+    const int wanted = experiment.coarse ? std::max(repeats, kCoarseRepeats) : repeats;
     const auto one =
-        plan_within(left_s, problem, experiment, inputs_of(experiment), values, repeats);
+        plan_within(left_s, problem, experiment, inputs_of(experiment), values, wanted, made);
     if (!one) {
       plan.over_budget.push_back(experiment.name);
       continue;

@@ -21,6 +21,7 @@ struct SensitivityCheck {
   AssumedInput input = AssumedInput::stiffness;
   double multiple = 1;     ///< of the study's stiffness, or spheres
   double value = 1;        ///< of the input with that: a stiffness factor, a number of spheres
+  double grain_size = 1;   ///< of the grains compared, as a multiple of the study's: coarse runs
   double change = 0;       ///< of the mean: with that value less with the study's
   double uncertainty = 0;  ///< standard uncertainty of the change
   Interval interval;       ///< 95 %
@@ -35,17 +36,21 @@ struct SensitivityCheck {
 /// Simulations of every measured experiment in which the input can be nearer to reality, at one set
 /// of coefficients: grains ten times stiffer than the study's, or as stiff as real ones if that is
 /// less; four times the spheres, or as many as can be if that is less. Those held out also as the
-/// study has it, which no other check simulates there.
+/// study has it, which no other check simulates there. Where an experiment has coarse runs, all of
+/// its runs here are coarse: larger grains are taken to change by as much as the study's, which
+/// those that give no reading say nothing of.
 struct SensitivityPlan {
   std::vector<Job> jobs;
   std::vector<std::string> over_budget;  ///< experiments that would take too much of the budget
   double run_s = 0;                      ///< work of all jobs, by Experiment::run_s
 };
 
-/// `repeats` of each, or no fewer than five where time is short; the cheapest first, as long as a
-/// fifth of FitSettings::budget_s lasts.
+/// `repeats` of each, 24 of coarse runs if these are more, or no fewer than five where time is
+/// short; the cheapest first, as long as a fifth of FitSettings::budget_s lasts.
+/// @param made  jobs that are made anyway, by the plan of another input
 SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
-                                 const std::vector<double>& values, int repeats);
+                                 const std::vector<double>& values, int repeats,
+                                 const std::vector<Job>& made = {});
 
 /// What the runs of the plan say, against those among them, or in the fit's checks, that are as the
 /// study has it. Formulae and reasons: THEORY.md, "Assumed inputs". Proved by StiffnessCheck.* and

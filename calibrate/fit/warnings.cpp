@@ -178,8 +178,7 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
       warnings.push_back(
           fmt::format("{}: {} of {} runs gave no reading; parameter sets near "
                       "them are considered unlikely",
-                      fitted.name, quality.failed_runs,
-                      quality.failed_runs + quality.full_runs()));
+                      fitted.name, quality.failed_runs, quality.failed_runs + quality.full_runs()));
     }
     if (would_narrow &&
         solution.misfit.surrogate_variance_fraction(i, solution.best.point) > kSurrogateFraction) {

@@ -19,6 +19,9 @@ Chapter protocol_chapter(const ReportedStudy& study);
 Chapter table_chapter(const StudyResult& result);
 /// What bench and simulation gave.
 Chapter agreement_chapter(const JointResult& joint);
+/// What stiffer grains and more spheres change, and in all digits.
+void add_stiffness_and_shape(const JointResult& joint, Chapter& chapter);
+void add_stiffness_and_shape_tables(const JointResult& joint, Chapter& chapter);
 /// What inputs held fixed move, beside the intervals.
 Chapter assumed_chapter(const JointResult& joint);
 /// How that was decided, in full: what the fit had expected, and how readings scatter.

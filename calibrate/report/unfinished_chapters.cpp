@@ -5,7 +5,7 @@
 
 #include "calibrate/report/chapters.h"
 #include "calibrate/report/wording.h"
-#include "calibrate/study/study_problem.h"
+#include "calibrate/study/study_budget.h"
 
 namespace repose::calibrate::report {
 namespace {

@@ -333,6 +333,21 @@ std::string coarse_text(const JointResult& joint) {
   return text;
 }
 
+std::string larger_grains_text(const std::vector<SensitivityCheck>& checks) {
+  std::string names;
+  double size = 1;
+  for (const SensitivityCheck& check : checks) {
+    if (check.grain_size == 1) continue;
+    names += (names.empty() ? "" : ", ") + check.name;
+    size = check.grain_size;
+  }
+  if (names.empty()) return {};
+  return fmt::format(
+      "{}: compared in grains {:.3g} times as large, which are taken to change by as "
+      "much as the study's",
+      names, size);
+}
+
 std::string condition_text(const JointResult& joint, const ResultParameter& parameter) {
   const AssumedScatters& assumed = joint.assumed_scatters;
   const auto found =

@@ -46,6 +46,9 @@ std::string model_error_text(const JointResult& joint);
 /// What runs of larger grains are taken to read more than the study's; empty where there are none.
 std::string coarse_text(const JointResult& joint);
 
+/// Which changes were simulated with larger grains than the study's. Empty: none was.
+std::string larger_grains_text(const std::vector<SensitivityCheck>& checks);
+
 /// "if single readings of roll scatter by 35 %": what a coefficient's verdict takes for granted.
 /// Empty: nothing, or nothing is determined.
 std::string condition_text(const JointResult& joint, const ResultParameter& parameter);

@@ -66,13 +66,20 @@ Pace timed_pace(const PreparedStudy& study, double longest_s,
   for (const Parameter& parameter : problem.parameters) {
     job.values.push_back((parameter.min + parameter.max) / 2);
   }
+  const auto pace_of = [&](const Experiment& experiment, const AssumedInputs& inputs) {
+    const double run_s = run_s_of(experiment, inputs);
+    job.inputs = inputs;
+    return timed_run_s(simulator.spec(job), job.seed, run_s, longest_s, is_interrupted) / run_s;
+  };
   Pace pace;
   if (timed) timed(0, runs.size());
   for (const ExperimentEstimate& run : runs) {
     job.experiment = run.experiment;
-    const double run_s =
-        timed_run_s(simulator.spec(job), job.seed, run.run_s, longest_s, is_interrupted);
-    pace[run.experiment] = run_s / run.run_s;
+    const Experiment& experiment = experiment_named(problem, run.experiment);
+    double slowest = pace_of(experiment, AssumedInputs{});
+    // The first seconds of a full run see few grains yet, and a coarse one ends.
+    if (experiment.coarse) slowest = std::max(slowest, pace_of(experiment, *experiment.coarse));
+    pace[run.experiment] = slowest;
     if (timed) timed(pace.size(), runs.size());
   }
   return pace;

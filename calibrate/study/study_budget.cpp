@@ -57,7 +57,7 @@ Budget budget_named(const std::string& name) {
 
 Budget with_affordable_checks(Budget budget, const Problem& problem) {
   constexpr double kChecks = .5;  // of the seconds of the fit
-  constexpr int kFewest = 4, kFewestOfRound = 2, kRounds = 2;
+  constexpr int kFewest = 4, kFewestOfRound = 2, kFew = 12, kFewRounds = 2;
   double dearest_s = 0;
   for (const Experiment& experiment : measured_experiments(problem)) {
     if (experiment.coarse) dearest_s = std::max(dearest_s, experiment.run_s);
@@ -68,8 +68,10 @@ Budget with_affordable_checks(Budget budget, const Problem& problem) {
   budget.verification_repeats = std::max(kFewest, static_cast<int>(affordable));
   budget.round_repeats = std::clamp(budget.verification_repeats / 2, kFewestOfRound,
                                     std::max(budget.round_repeats, kFewestOfRound));
-  budget.check_rounds = kRounds;
-  budget.family_sets = 0;
+  if (budget.verification_repeats < kFew) {
+    budget.check_rounds = kFewRounds;
+    budget.family_sets = 0;
+  }
   return budget;
 }
 

@@ -27,8 +27,9 @@ struct Budget {
 Budget budget_named(const std::string& name);
 
 /// The same with no more checks than the budget has time for, where full runs of an experiment cost
-/// so much that it has coarse ones: the last check is of four repeats at least, one before it of
-/// two, and of equally good sets none. Others as they are, and those of minutes, which have theirs.
+/// so much that it has coarse ones: the last check is of four repeats at least, those before it of
+/// two at least; with fewer than twelve there is one before it at most, and equally good sets are
+/// not checked. Others as they are, and those of minutes, which have theirs.
 Budget with_affordable_checks(Budget budget, const Problem& problem);
 
 /// "20min", the name of a budget of so many minutes, and back: none for another name.

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -95,14 +96,21 @@ void count(Phase phase, int runs, ExperimentEstimate& estimate) {
   estimate.phases[phase] = {.runs = runs, .seconds = runs * estimate.run_s};
 }
 
+/// Of stiffer grains, and then of more spheres.
+std::pair<SensitivityPlan, SensitivityPlan> sensitivity_plans(const Problem& problem, int repeats) {
+  const std::vector<double> middle = middle_of(problem);
+  SensitivityPlan stiffness = plan_sensitivity(problem, AssumedInput::stiffness, middle, repeats);
+  SensitivityPlan spheres =
+      plan_sensitivity(problem, AssumedInput::spheres, middle, repeats, stiffness.jobs);
+  return {std::move(stiffness), std::move(spheres)};
+}
+
 /// Of the last runs: those of stiffer grains, of grains of more spheres, and of other inputs.
 void count_last_runs(const Problem& problem, int repeats,
                      std::vector<ExperimentEstimate>& estimates) {
-  const auto more = [&](AssumedInput input) {
-    return plan_sensitivity(problem, input, middle_of(problem), repeats).jobs;
-  };
-  count(Phase::stiffness, problem, more(AssumedInput::stiffness), estimates);
-  count(Phase::spheres, problem, more(AssumedInput::spheres), estimates);
+  const auto [stiffness, spheres] = sensitivity_plans(problem, repeats);
+  count(Phase::stiffness, problem, stiffness.jobs, estimates);
+  count(Phase::spheres, problem, spheres.jobs, estimates);
   count(Phase::inputs, problem, input_plan(problem, repeats).jobs, estimates);
 }
 
@@ -201,10 +209,8 @@ std::string foreseen(const std::vector<ExperimentEstimate>& estimates) {
 }
 
 double last_runs_s(const Problem& problem, int repeats) {
-  double seconds = input_plan(problem, repeats).run_s;
-  for (const AssumedInput input : {AssumedInput::stiffness, AssumedInput::spheres}) {
-    seconds += plan_sensitivity(problem, input, middle_of(problem), repeats).run_s;
-  }
+  const auto [stiffness, spheres] = sensitivity_plans(problem, repeats);
+  double seconds = input_plan(problem, repeats).run_s + stiffness.run_s + spheres.run_s;
   for (const Experiment& experiment : held_out_experiments(problem)) {
     seconds += experiment.run_s * prediction_runs(experiment);
   }

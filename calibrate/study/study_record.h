@@ -33,7 +33,7 @@ struct StudyIdentity {
   std::string method;                 ///< "joint" or "paper"
   std::string budget;
   std::string budget_description;
-  /// Some of its runs are coarse ones; none: it has no experiment of which any could be.
+  /// Some of its runs may be coarse ones; none: it has no experiment of which any could be.
   std::optional<bool> is_mixed = {};
 };
 

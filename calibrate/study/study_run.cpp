@@ -240,57 +240,72 @@ InputWords words_of(AssumedInput input, const Problem& problem, double value) {
       .by_hand = "simulate it at these coefficients with more spheres"};
 }
 
-/// Simulates experiments with another value of an assumed input at the coefficients that were
-/// checked last. False when interrupted.
-bool vary(const Problem& problem, const Budget& budget, const SensitivityPlan& plan,
-          AssumedInput input, JobRunner& runner, StudyOutcome& outcome, Sensitivity& found) {
-  const InputWords words = words_of(input, problem, 0);
-  const bool is_largest = budget.settings.budget_s >= budget_named("standard").settings.budget_s;
-  found.over_budget = plan.over_budget;
-  for (const std::string& experiment : plan.over_budget) {
-    outcome.notes.push_back(fmt::format(
-        "{}: it is not known {} would take more than a fifth of this budget. Fix: {}.", experiment,
-        words.over_budget, is_largest ? words.by_hand : "the budget standard"));
+/// Experiments with other values of assumed inputs, at the coefficients that were checked last.
+class InputChecks {
+ public:
+  InputChecks(const Problem& problem, const Budget& budget, JobRunner& runner,
+              StudyOutcome& outcome)
+      : problem_(problem), budget_(budget), runner_(runner), outcome_(outcome) {}
+
+  /// Stiffer grains, in softened experiments. False when interrupted.
+  bool make_stiffer() {
+    return vary(plan(AssumedInput::stiffness), AssumedInput::stiffness, outcome_.stiffness);
   }
-  if (plan.jobs.empty()) return true;
-  const auto runs = runner.get(words.stage, plan.jobs, 0);
-  if (!runs) return false;
-  found.readings = check_sensitivity(problem, input, outcome.best.values,
-                                     joined(outcome.runs, *runs), outcome.fit);
-  found.coefficients = moved_coefficients(problem, found.readings, outcome.runs);
-  return true;
-}
 
-/// Stiffer grains, in softened experiments. False when interrupted.
-bool check_stiffness(const Problem& problem, const Budget& budget, JobRunner& runner,
-                     StudyOutcome& outcome) {
-  const SensitivityPlan plan = plan_sensitivity(problem, AssumedInput::stiffness,
-                                                outcome.best.values, budget.verification_repeats);
-  return vary(problem, budget, plan, AssumedInput::stiffness, runner, outcome, outcome.stiffness);
-}
-
-/// Grains of more spheres, where their surface is known. False when interrupted.
-bool refine(const Problem& problem, const Budget& budget, const StudySimulator& simulator,
-            JobRunner& runner, StudyOutcome& outcome) {
-  ShapeCheck& shape = outcome.shape;
-  shape.spheres = problem.spheres.count;
-  shape.not_made = problem.spheres.no_closer;
-  const SensitivityPlan plan = plan_sensitivity(problem, AssumedInput::spheres, outcome.best.values,
-                                                budget.verification_repeats);
-  const auto varied =
-      std::ranges::find_if(plan.jobs, [](const Job& job) { return job.inputs != AssumedInputs{}; });
-  if (varied != plan.jobs.end()) {
-    try {
-      const dem::ClumpFile& finer = simulator.finer_grain(varied->inputs.spheres);
-      shape.finer_spheres = static_cast<int>(finer.shape.spheres.size());
-      shape.finer_volume_error = finer.errors.volume_error;
-    } catch (const base::InputError& error) {
-      shape.not_made = fmt::format("more spheres cannot be made: {}", error.what());
-      return true;
+  /// Grains of more spheres, where their surface is known. False when interrupted.
+  bool make_finer(const StudySimulator& simulator) {
+    ShapeCheck& shape = outcome_.shape;
+    shape.spheres = problem_.spheres.count;
+    shape.not_made = problem_.spheres.no_closer;
+    const SensitivityPlan finer = plan(AssumedInput::spheres);
+    const auto varied =
+        std::ranges::find_if(finer.jobs, [](const Job& job) { return job.inputs.spheres != 1; });
+    if (varied != finer.jobs.end()) {
+      try {
+        const dem::ClumpFile& grain = simulator.finer_grain(varied->inputs.spheres);
+        shape.finer_spheres = static_cast<int>(grain.shape.spheres.size());
+        shape.finer_volume_error = grain.errors.volume_error;
+      } catch (const base::InputError& error) {
+        shape.not_made = fmt::format("more spheres cannot be made: {}", error.what());
+        return true;
+      }
     }
+    return vary(finer, AssumedInput::spheres, shape);
   }
-  return vary(problem, budget, plan, AssumedInput::spheres, runner, outcome, shape);
-}
+
+ private:
+  SensitivityPlan plan(AssumedInput input) const {
+    return plan_sensitivity(problem_, input, outcome_.best.values, budget_.verification_repeats,
+                            made_);
+  }
+
+  bool vary(const SensitivityPlan& plan, AssumedInput input, Sensitivity& found) {
+    const InputWords words = words_of(input, problem_, 0);
+    const bool is_largest = budget_.settings.budget_s >= budget_named("standard").settings.budget_s;
+    found.over_budget = plan.over_budget;
+    for (const std::string& experiment : plan.over_budget) {
+      outcome_.notes.push_back(fmt::format(
+          "{}: it is not known {} would take more than a fifth of this budget. Fix: {}.",
+          experiment, words.over_budget, is_largest ? words.by_hand : "the budget standard"));
+    }
+    if (plan.jobs.empty()) return true;
+    const auto runs = runner_.get(words.stage, plan.jobs, 0);
+    if (!runs) return false;
+    made_.insert(made_.end(), plan.jobs.begin(), plan.jobs.end());
+    runs_ = joined(std::move(runs_), *runs);
+    found.readings = check_sensitivity(problem_, input, outcome_.best.values,
+                                       joined(outcome_.runs, runs_), outcome_.fit);
+    found.coefficients = moved_coefficients(problem_, found.readings, outcome_.runs);
+    return true;
+  }
+
+  const Problem& problem_;
+  const Budget& budget_;
+  JobRunner& runner_;
+  StudyOutcome& outcome_;
+  std::vector<Job> made_;
+  std::vector<Run> runs_;
+};
 
 /// What of the study is known but not exactly, one after the other. False when interrupted.
 bool vary_inputs(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
@@ -357,11 +372,15 @@ void note_sensitivity(const Problem& problem, const Sensitivity& found,
                       check.name, words.other, words.fix));
       continue;
     }
+    const std::string seen_in =
+        check.grain_size == 1
+            ? ""
+            : fmt::format(", seen in grains {:.3g} times as large", check.grain_size);
     notes.push_back(
-        fmt::format("{}: {}: {} it changes by {:+.3g} {} (95 %: {:.3g} to {:.3g}), and the bench's "
-                    "mean is known within {:.2g}. Fix: {}.",
+        fmt::format("{}: {}: {} it changes by {:+.3g} {} (95 %: {:.3g} to {:.3g}{}), and the "
+                    "bench's mean is known within {:.2g}. Fix: {}.",
                     check.name, words.matters, words.other, check.change, check.unit,
-                    check.interval.low, check.interval.high, check.limit, words.fix));
+                    check.interval.low, check.interval.high, seen_in, check.limit, words.fix));
   }
 }
 
@@ -411,8 +430,8 @@ bool run_to_the_end(const Problem& problem, const Budget& budget, const StudyCon
     judge_family(problem, outcome);
     outcome.assumed_scatters = assumed_scatters(problem, outcome.runs, outcome.fit);
     if (!predict(problem, runner, outcome)) return false;
-    if (!check_stiffness(problem, budget, runner, outcome)) return false;
-    if (!refine(problem, budget, context.simulator, runner, outcome)) return false;
+    InputChecks checks(problem, budget, runner, outcome);
+    if (!checks.make_stiffer() || !checks.make_finer(context.simulator)) return false;
     return vary_inputs(problem, runner, outcome);
   } catch (const FitInterrupted&) {
     return false;

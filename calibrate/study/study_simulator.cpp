@@ -98,7 +98,7 @@ struct StudySimulator::FinerGrains {
 
   std::mutex making;
   std::map<std::pair<int, InputStep>, Grain> made;
-  std::map<double, Grain> larger;
+  std::map<std::pair<std::string, double>, Grain> larger;
 
   const Grain& of(dem::GrainSource source, int spheres, const InputStep& step) {
     const std::scoped_lock lock(making);
@@ -111,12 +111,14 @@ struct StudySimulator::FinerGrains {
   }
 
   /// The same clump, larger.
-  const Grain& scaled(dem::ClumpFile clump, double size) {
+  const Grain& scaled(const dem::ClumpFile& clump, const std::string& fingerprint, double size) {
     const std::scoped_lock lock(making);
-    const auto found = larger.find(size);
+    const auto key = std::pair(fingerprint, size);
+    const auto found = larger.find(key);
     if (found != larger.end()) return found->second;
-    dem::scale(clump, size);
-    Grain& grain = larger.try_emplace(size, clump).first->second;
+    dem::ClumpFile scaled = clump;
+    dem::scale(scaled, size);
+    Grain& grain = larger.try_emplace(key, scaled).first->second;
     grain.named.size = size;
     return grain;
   }
@@ -145,9 +147,13 @@ const NamedGrain& StudySimulator::grain(const dem::GrainSource& source,
                                         const AssumedInputs& inputs) const {
   const bool is_other = source.size_factor != study_.grain.size_factor ||
                         (source.sizes && *source.sizes != *study_.grain.sizes);
-  if (inputs.size != 1) return finer_->scaled(study_grain_, inputs.size).named;
-  if (inputs.spheres == 1 && !is_other) return grain_;
-  return finer_->of(source, spheres(inputs.spheres), is_other ? inputs.step : InputStep{}).named;
+  const bool is_own = inputs.spheres == 1 && !is_other;
+  if (is_own && inputs.size == 1) return grain_;
+  if (is_own) return finer_->scaled(study_grain_, grain_.fingerprint, inputs.size).named;
+  const FinerGrains::Grain& made =
+      finer_->of(source, spheres(inputs.spheres), is_other ? inputs.step : InputStep{});
+  if (inputs.size == 1) return made.named;
+  return finer_->scaled(made.file, made.named.fingerprint, inputs.size).named;
 }
 
 RunSpec StudySimulator::spec(const Job& job) const {

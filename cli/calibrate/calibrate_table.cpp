@@ -233,6 +233,9 @@ void add_sensitivity(const std::vector<calibrate::SensitivityCheck>& readings,
       "({}, at the coefficients checked last; limit: the half-width of the 95 % interval of the "
       "bench's mean)",
       words.explanation));
+  if (const std::string coarse = larger_grains_text(readings); !coarse.empty()) {
+    page.add(fmt::format("({})", coarse));
+  }
   if (coefficients.empty()) return;
   Table moved({{.heading = words.coefficients},
                number_column("value"),

@@ -368,7 +368,7 @@ double cost_of_heap_s(const Model& model, const Protocol& protocol) {
 }
 
 /// Heaps of kFewest grains have about the angle of those of many, and scatter two or three times
-/// as much: docs/calibrating.md, "Fewer, larger grains".
+/// as much: docs/simulating.md, "Heaps of larger grains".
 std::optional<double> coarse_size_of_heap(const ClumpShape& grain, const Protocol& protocol) {
   constexpr double kFewest = 300;
   constexpr double kWorthIt = 1.5;  // a fifth of the cost

@@ -28,6 +28,7 @@ JointResult joint_with(double chance, double bench_sd, double simulated_sd) {
   heap.predicted_sd = simulated_sd;
   heap.verification->runs = 3;
   joint.surrogates.front().runs = kHeapRuns;
+  joint.surrogates.front().coarse.reset();
   joint.agreement.chance = chance;
   return joint;
 }
@@ -58,6 +59,12 @@ TEST(Candidates, ScatterThatTheBenchDoesNotHaveIsCountedAsBartlettDoes) {
   // 9 and 40 degrees of freedom, variances 1 and 4: 49 ln(169 / 49) - 40 ln 4.
   EXPECT_NEAR(candidate_of("model", joint_with(1, 1, 2)).scatter,
               49 * std::log(169. / 49) - 40 * std::log(4.), 1e-9);
+  // Of larger grains nobody asked what their heaps scatter by.
+  JointResult mixed = joint_with(1, 1, 2);
+  mixed.surrogates.front().runs += 70;
+  mixed.surrogates.front().coarse = CoarseQuality{.size = 2, .runs = 70};
+  EXPECT_EQ(candidate_of("model", mixed).scatter,
+            candidate_of("model", joint_with(1, 1, 2)).scatter);
 }
 
 TEST(Candidates, AScatterThatWasOnlyAssumedSpeaksForNone) {

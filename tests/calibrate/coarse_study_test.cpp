@@ -38,14 +38,16 @@ measured = { mean = 20, sd = 1, n = 5 }
 
 class CoarseStudy : public ::testing::Test {
  protected:
-  StudyRecord record(double size_mm = 3, const std::string& heap = kHeapOfMany) const {
+  StudyRecord record(double size_mm = 3, const std::string& heap = kHeapOfMany,
+                     const std::string& setting = "study.title = \"balls\"") const {
     StudyRecord record;
-    record.study = dem::read_study(folder_.write("study.toml", test::kSphereStudy + heap),
-                                   {fmt::format("particle.size_mm = [{0}, {0}, {0}]", size_mm),
-                                    // Rough enough to stand.
-                                    "contact.particle_wall.rolling_friction = 0.2",
-                                    "contact.particle_particle.sliding_friction = 0.8",
-                                    "contact.particle_particle.rolling_friction = 0.3"});
+    record.study =
+        dem::read_study(folder_.write("study.toml", test::kSphereStudy + heap),
+                        {fmt::format("particle.size_mm = [{0}, {0}, {0}]", size_mm), setting,
+                         // Rough enough to stand.
+                         "contact.particle_wall.rolling_friction = 0.2",
+                         "contact.particle_particle.sliding_friction = 0.8",
+                         "contact.particle_particle.rolling_friction = 0.3"});
     record.grain = dem::build_grain(record.study.grain);
     record.method = "joint";
     record.budget = budget_named("quick");
@@ -104,6 +106,21 @@ TEST_F(CoarseStudy, TheSameClumpIsLargerAndAllElseStays) {
   EXPECT_THAT(description_of(full, 3), Not(HasSubstr("grain_size")));
 }
 
+TEST_F(CoarseStudy, LargerGrainsMayHaveMoreSpheres) {
+  const StudyRecord study = record(3, std::string(kHeapOfMany), "particle.size_mm = [4, 3, 3]");
+  const Problem problem = problem_in(study);
+  const StudySimulator simulator(study.study, study.grain, problem.parameters, 0);
+  AssumedInputs inputs = experiment_named(problem, "heap").usual_inputs();
+  const RunSpec coarse = simulator.spec(heap_job(problem, inputs));
+  EXPECT_GT(coarse.grain_size, 1);
+  inputs.spheres = 3;
+  const RunSpec finer = simulator.spec(heap_job(problem, inputs));
+  EXPECT_EQ(finer.model.grain.spheres.size(), 3 * coarse.model.grain.spheres.size());
+  EXPECT_NEAR(finer.model.grain.volume_m3, coarse.model.grain.volume_m3,
+              .01 * coarse.model.grain.volume_m3);
+  EXPECT_EQ(finer.grain_size, coarse.grain_size);
+}
+
 TEST_F(CoarseStudy, ACoarseRunHasAsFewGrainsAsForeseen) {
   const StudyRecord study = record();
   const Problem problem = problem_in(study);
@@ -159,7 +176,16 @@ TEST_F(CoarseStudy, DearChecksAreFewerAndOthersAsAsked) {
   const Budget fewer = with_affordable_checks(study.budget, dear);
   EXPECT_EQ(fewer.verification_repeats, 5);
   EXPECT_EQ(fewer.round_repeats, 2);
+  EXPECT_EQ(fewer.check_rounds, 2);
   EXPECT_EQ(fewer.family_sets, 0);
+  // A little less time does not change how it goes.
+  for (Experiment& experiment : dear.experiments) {
+    if (experiment.coarse) experiment.run_s = dear.settings.budget_s / 40;
+  }
+  const Budget nearly = with_affordable_checks(study.budget, dear);
+  EXPECT_EQ(nearly.verification_repeats, 20);
+  EXPECT_EQ(nearly.check_rounds, study.budget.check_rounds);
+  EXPECT_EQ(nearly.family_sets, study.budget.family_sets);
   for (Experiment& experiment : dear.experiments) experiment.coarse.reset();
   EXPECT_EQ(with_affordable_checks(study.budget, dear).verification_repeats,
             study.budget.verification_repeats);

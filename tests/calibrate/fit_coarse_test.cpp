@@ -218,13 +218,28 @@ TEST(CoarseRuns, TheScatterOfFullOnesIsKnownByTheseAlone) {
   EXPECT_EQ(quality.scatter_df(), full_runs_of_first_round(experiment_named(problem, "heap")) - 1);
 }
 
+TEST(CoarseRuns, OneFullRunThatFailsStopsNothing) {
+  const Problem problem = coarse_problem();
+  fake::Runs runs = fake::first_runs(problem);
+  const auto full = std::ranges::find_if(runs, [](const auto& run) {
+    return run.job.experiment == "heap" && run.job.inputs.size == 1;
+  });
+  full->readings.clear();
+  full->failure = "the grains stay in the tube";
+  const SurrogateQuality quality = fit_jointly(problem, runs).surrogates.back();
+  EXPECT_EQ(quality.full_runs(), 1);
+  EXPECT_EQ(quality.failed_runs, 1);
+  EXPECT_GT(quality.coarse->uncertainty, 0);
+}
+
 TEST(CoarseRuns, WithoutFullOnesThereIsNoFit) {
   const Problem problem = coarse_problem();
   fake::Runs runs = fake::first_runs(problem);
   std::erase_if(runs, [](const auto& run) {
     return run.job.experiment == "heap" && run.job.inputs.size == 1;
   });
-  EXPECT_THAT(error_of([&] { Misfit(problem, runs, {}, false); }), HasSubstr("heap"));
+  EXPECT_THAT(error_of([&] { Misfit(problem, runs, {}, false); }),
+              HasSubstr("0 of 0 runs of heap with the study's own grains"));
 }
 
 TEST(CoarseRuns, RunsOfOtherInputsTeachNothing) {

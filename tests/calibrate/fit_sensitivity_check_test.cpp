@@ -78,7 +78,7 @@ TEST(StiffnessCheck, OnlySoftenedExperimentsAreSimulatedTenTimesStiffer) {
     seeds.insert(job.seed);
   }
   EXPECT_THAT(seeds, SizeIs(6));
-  EXPECT_NEAR(plan.run_s, 6 * 25 * std::sqrt(10), 1e-9) << "a step is shorter by the root";
+  EXPECT_NEAR(plan.run_s, 6 * 25 * std::pow(10, .4), 1e-9) << "a step is shorter by as much";
 }
 
 TEST(StiffnessCheck, NoGrainIsStifferThanTheRealOnes) {
@@ -117,7 +117,7 @@ TEST(StiffnessCheck, WhatIsTooDearForTheBudgetIsNamedAndTheCheaperOnesAreSimulat
 
 TEST(StiffnessCheck, WhereTimeIsShortThereAreFewerRepeatsButFiveAtLeast) {
   Problem problem = softening("heap");
-  const double run_s = 25 * std::sqrt(10);
+  const double run_s = 25 * std::pow(10, .4);
   const auto jobs_within = [&](double seconds) {
     problem.settings.budget_s = seconds / .2;
     return plan_stiffer(problem, kTruth, 10).jobs.size();
@@ -168,6 +168,65 @@ TEST(StiffnessCheck, WhatIsHeldOutIsSimulatedAsStiffAsTheStudyToo) {
   EXPECT_EQ(check.name, "heap");
   EXPECT_NEAR(check.value, .01, 1e-12) << "ten times that of the study, 0.001";
   EXPECT_NEAR(check.change, -fake::kSofteningShift, 1.5);
+}
+
+TEST(StiffnessCheck, WhereHeapsAreDearLargerGrainsAreComparedWithLargerOnes) {
+  Problem problem = softening("heap");
+  fake::coarsen(problem, 2.5);
+  const SensitivityPlan plan = plan_stiffer(problem, kTruth, 4);
+  std::size_t stiffer = 0;
+  for (const Job& job : plan.jobs) {
+    EXPECT_EQ(job.inputs.size, 2.5);
+    stiffer += job.inputs.stiffness == 10 ? 1 : 0;
+  }
+  EXPECT_EQ(2 * stiffer, plan.jobs.size());
+  EXPECT_EQ(stiffer, 24) << "they are cheap, and scatter more";
+  const SensitivityCheck check = checks_of(problem, 200).at(0);
+  EXPECT_EQ(check.grain_size, 2.5);
+  EXPECT_NEAR(check.change, -fake::kSofteningShift, .5) << "what size changes is in both";
+  EXPECT_EQ(checks_of(softening("heap"), 4).at(0).grain_size, 1);
+}
+
+TEST(StiffnessCheck, AFewLargerGrainsThatAgreeByChanceAreNotTrustedOverTheirKind) {
+  Problem problem = softening("heap");
+  fake::coarsen(problem, 2.5);
+  JointFit fit = fit_for_check(problem);
+  for (std::size_t i = 0; i < problem.observables.size(); ++i) {
+    if (problem.observables[i].name != "heap") continue;
+    fit.observables[i].simulated_sd = 1;
+    fit.surrogates[i].runs = 52;
+    fit.surrogates[i].coarse = CoarseQuality{.size = 2.5, .runs = 50, .scatter = 3};
+  }
+  fake::Runs runs = fake::run_all(plan_stiffer(problem, kTruth, 4).jobs);
+  for (auto& run : runs) run.readings["value"] = 20 + 1e-3 * static_cast<double>(run.job.seed % 2);
+  const auto check = check_sensitivity(problem, AssumedInput::stiffness, kTruth, runs, fit).at(0);
+  EXPECT_NEAR(check.uncertainty, 3 * std::sqrt(2. / 24), 1e-6);
+}
+
+TEST(StiffnessCheck, LargerGrainsThatGiveNoReadingSayNothingOfTheStudys) {
+  Problem problem = softening("heap");
+  fake::coarsen(problem, 2.5);
+  fake::Runs runs = fake::run_all(plan_stiffer(problem, kTruth, 4).jobs);
+  for (auto& run : runs) {
+    if (run.job.inputs.stiffness != 1) run = {run.job, {}, "no heap"};
+  }
+  const auto check =
+      check_sensitivity(problem, AssumedInput::stiffness, kTruth, runs, fit_for_check(problem));
+  EXPECT_EQ(check.at(0).verdict, AgreementVerdict::cannot_tell);
+}
+
+TEST(ShapeCheck, RunsThatWereMadeForStifferGrainsAreNotMadeAgain) {
+  Problem problem = softening("heap");
+  fake::coarsen(problem, 2.5);
+  problem.spheres = {.count = 11, .most = 200, .no_closer = {}};
+  const SensitivityPlan stiffer = plan_stiffer(problem, kTruth, 4);
+  const auto heaps = [&](const std::vector<Job>& made) {
+    return std::ranges::count(
+        plan_sensitivity(problem, AssumedInput::spheres, kTruth, 4, made).jobs, "heap",
+        &Job::experiment);
+  };
+  EXPECT_EQ(heaps({}), 48);
+  EXPECT_EQ(heaps(stiffer.jobs), 24);
 }
 
 TEST(StiffnessCheck, StifferGrainsThatGiveNoReadingDisagree) {

@@ -152,7 +152,13 @@ SurrogateQuality drop_surrogate() {
           .length_scales = {},
           .leave_one_out_sigma = 1.25,
           .leave_one_out_error = .75,
-          .inflation = 1.5};
+          .inflation = 1.5,
+          .coarse = CoarseQuality{.size = 2.5,
+                                  .runs = 8,
+                                  .failed_runs = 2,
+                                  .shift = -.5,
+                                  .uncertainty = .25,
+                                  .scatter = 1.75}};
 }
 
 InputEffect higher_drop() {
@@ -216,6 +222,7 @@ SensitivityCheck stiffer_drop() {
 
 ShapeCheck finer_drop() {
   SensitivityCheck drop = stiffer_drop();
+  drop.grain_size = 2.5;
   drop.input = AssumedInput::spheres;
   drop.multiple = 4;
   drop.value = 44;

@@ -335,8 +335,9 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
   const Report report = made();
   EXPECT_THAT(page_of(report), HasSubstr("Unfinished: this study has no result yet"));
   EXPECT_THAT(page_of(report), HasSubstr("2 simulations are complete"));
-  EXPECT_THAT(page_of(report),
-              HasSubstr("repose calibrate nuts.toml --budget standard --fidelity full --set a.b=1"));
+  EXPECT_THAT(
+      page_of(report),
+      HasSubstr("repose calibrate nuts.toml --budget standard --fidelity full --set a.b=1"));
   EXPECT_EQ(table_in(report, "simulations.csv"),
             "experiment,simulations,without a reading\ndrop,2,0\n");
   EXPECT_THAT(table_in(report, "response_drop_particle_wall_restitution.csv"),
@@ -346,16 +347,18 @@ TEST_F(StudyReport, UnfinishedStudiesSaySoAndHowToGoOn) {
 TEST_F(StudyReport, UnfinishedStudiesTellRunsOfLargerGrains) {
   folder_.write("study.json", std::string(kRecord));
   std::filesystem::create_directory(folder_.path() / "runs");
-  for (const auto& [name, grain_size] : {std::pair("own", ""), {"larger", "\"grain_size\": 2.5,"}}) {
+  for (const auto& [number, grain_size] : {std::pair("2", ""), {"5", "\"grain_size\": 2.5,"}}) {
     RunResult run;
-    run.simulated =
-        replaced(replaced(kDrop, "%d", "2"), "\"drop\",", "\"drop\", " + std::string(grain_size));
+    run.simulated = replaced(replaced(kDrop, "%d", number), "\"drop\",",
+                             "\"drop\", " + std::string(grain_size));
     run.value = 7;
+    run.readings = {{"sd_mm", std::nullopt}};
     run.timestep_s = 1e-6;
-    folder_.write(fmt::format("runs/{}.json", name), text_of(run));
+    folder_.write(fmt::format("runs/{}.json", number), text_of(run));
   }
-  EXPECT_THAT(table_in(made(), "response_drop_particle_wall_restitution.csv"),
-              AllOf(HasSubstr("simulated runs,0.2,7,,\n"), HasSubstr("runs of larger grains,0.2,7,,\n")));
+  EXPECT_THAT(
+      table_in(made(), "response_drop_particle_wall_restitution.csv"),
+      AllOf(HasSubstr("simulated runs,0.2,7,,\n"), HasSubstr("runs of larger grains,0.5,7,,\n")));
 }
 
 TEST_F(StudyReport, ResultsOfAnotherStudyAreNotShown) {
