@@ -10,6 +10,7 @@ void add_board_accuracy(CLI::App& bench);
 void add_draw_heap(CLI::App& bench);
 void add_film_accuracy(CLI::App& bench);
 void add_heap_agreement(CLI::App& bench);
+void add_heap_fidelity(CLI::App& bench);
 void add_photo_accuracy(CLI::App& bench);
 void add_recovery(CLI::App& bench);
 void add_scan_accuracy(CLI::App& bench);

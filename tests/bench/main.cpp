@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   add_speed(bench);
   add_against_liggghts(bench);
   add_heap_agreement(bench);
+  add_heap_fidelity(bench);
   try {
     bench.parse(argc, argv);
     return 0;

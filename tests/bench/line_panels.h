@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace repose::bench {
+
+/// A mean with its 95 % interval.
+struct PanelPoint {
+  double x = 0;
+  double y = 0;
+  double half = 0;  ///< of the interval; 0: one reading, which has none
+};
+
+struct PanelLine {
+  std::string name;
+  std::vector<PanelPoint> points;  ///< with rising x
+};
+
+/// Lines over an axis whose steps are factors.
+struct Panel {
+  std::string title;
+  std::vector<double> ticks;
+  std::vector<PanelLine> lines;
+};
+
+/// Panels side by side as SVG, with one vertical axis and one legend: lines through the means,
+/// bands and bars for the intervals.
+std::string panels_svg(const std::vector<Panel>& panels, const std::string& y_title);
+
+}  // namespace repose::bench
