@@ -367,8 +367,9 @@ double cost_of_heap_s(const Model& model, const Protocol& protocol) {
          bulk_timestep_s(model, kSpeed_m_s);
 }
 
-/// Heaps of kFewest grains have about the angle of those of many, and scatter two or three times
-/// as much: docs/simulating.md, "Heaps of larger grains".
+/// Fewer make no heap at little friction. Those of kFewest are off by up to 8 degrees, which goes
+/// with friction, and scatter two to six times as much: docs/simulating.md, "Heaps of larger
+/// grains".
 std::optional<double> coarse_size_of_heap(const ClumpShape& grain, const Protocol& protocol) {
   constexpr double kFewest = 300;
   constexpr double kWorthIt = 1.5;  // a fifth of the cost

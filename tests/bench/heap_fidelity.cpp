@@ -33,11 +33,11 @@ struct Wanted {
   std::string study;
   std::vector<std::string> settings;
   std::vector<std::pair<double, double>> frictions = {{.2, .02}, {.45, .08}, {.75, .22}};
-  std::vector<std::pair<double, int>> sizes = {{1, 2}, {1.5, 4}, {2, 8}, {2.64, 12}, {3, 12}};
+  std::vector<std::pair<double, int>> sizes = {{1, 4}, {1.5, 4}, {2, 8}, {2.64, 8}, {3, 8}};
   double of_size = 2.64;
   std::vector<int> spheres = {5, 44};
   std::vector<double> stiffnesses = {.01, 1};
-  int heaps = 12;
+  int heaps = 6;
   int jobs = 2;
   std::string folder;
   std::string figure;
@@ -178,7 +178,6 @@ void measure(const Wanted& wanted) {
   }
   fmt::print("{}\n{}\n", heading, rule);
   std::vector<Row> by_size, by_spheres, by_stiffness;
-  // The dearest last.
   for (auto [size, heaps] : wanted.sizes) {
     by_size.push_back(
         row(size, {.size = size, .spheres = {}, .stiffness_factor = {}, .heaps = heaps}));
