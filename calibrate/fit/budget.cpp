@@ -32,15 +32,9 @@ std::vector<double> bought(const std::vector<Experiment>& experiments,
 
 }  // namespace
 
-int full_runs_of_first_round(const Experiment& experiment) {
-  constexpr int kFull = 2;
-  return experiment.coarse ? kFull : 0;
-}
-
 Cost minimum_cost(const Experiment& experiment) {
-  const int full = full_runs_of_first_round(experiment);
-  return {.seconds = least_jobs(experiment) * usual_run_s(experiment) + full * experiment.run_s,
-          .jobs = least_jobs(experiment) + full};
+  return {.seconds = least_jobs(experiment) * usual_run_s(experiment),
+          .jobs = least_jobs(experiment)};
 }
 
 Cost minimum_cost(const Problem& problem) {

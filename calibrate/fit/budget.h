@@ -11,10 +11,6 @@ struct Cost {
   int jobs = 0;
 };
 
-/// Beside coarse ones at the same places, that they are told from: enough to see by how much coarse
-/// ones are off, and whether it is the same everywhere. 0 where an experiment has none.
-int full_runs_of_first_round(const Experiment& experiment);
-
 /// Of an experiment's runs in the smallest first round.
 Cost minimum_cost(const Experiment& experiment);
 
@@ -28,8 +24,8 @@ double least_budget_s(const Problem& problem);
 /// Of the seconds, for the first round.
 inline constexpr double kFirstFraction = .35;
 
-/// Jobs of the first round, for each of measured_experiments(): coarse ones where it has any, and
-/// full_runs_of_first_round() besides. Their cost is that of usual_run_s().
+/// Jobs of the first round, for each of measured_experiments(): coarse ones where it has any. Their
+/// cost is that of usual_run_s().
 ///
 /// About kFirstFraction of the budget; the seconds are shared in proportion to dimensions times the
 /// root of a run's cost (Neyman's allocation, Cochran 1977, Sampling Techniques, sec. 5.5: counts

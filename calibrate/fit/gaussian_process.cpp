@@ -40,10 +40,10 @@ struct LogNormal {
   double log_sd = 1;
 };
 
-/// Of shift, drift and noise of coarse values: 95 % within .04 ... 2 and .014 ... .7 of the data's
-/// sd, and .38 ... 2.7 of the full ones' noise.
+/// Of shift, drift and noise of coarse values: 95 % within .04 ... 2 of the data's sd, the first
+/// two, and .38 ... 2.7 of the full ones' noise.
 constexpr std::array<LogNormal, 3> kCoarsePriors = {
-    {{.log_median = -1.2, .log_sd = 1}, {.log_median = -2.3, .log_sd = 1}, {0, .5}}};
+    {{.log_median = -1.2, .log_sd = 1}, {.log_median = -1.2, .log_sd = 1}, {0, .5}}};
 
 /// Logarithms: lengths, signal, trend, noise, and where values are coarse shift, drift and noise
 /// of these.

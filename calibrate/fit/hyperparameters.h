@@ -17,7 +17,7 @@ struct LeaveOneOut {
 /// Of what coarse values have beside the function itself: see GaussianProcess.
 struct CoarseHyperparameters {
   double shift = .3;  ///< alike everywhere, in sd's of the data
-  double drift = .1;  ///< what differs from place to place, likewise
+  double drift = .3;  ///< what differs from place to place, likewise
   double noise = 1;   ///< as a multiple of that of full ones
 };
 

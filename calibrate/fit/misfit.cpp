@@ -165,7 +165,6 @@ constexpr double kPull = .1;      // per box width: to the middle among equals
 constexpr double kDistrust = .1;  // to where the surrogate is sure, among equals
 constexpr double kFailure = 4;    // a half chance of failure alone is beyond 3.84
 constexpr std::size_t kFewestToLearn = 3;  // readings to learn from
-constexpr std::size_t kFewestFull = 1;     // of them, not coarse: else nothing ties these to it
 
 /// Cauchy's loss as a residual: its square is c^2 log(1 + z^2 / c^2). Returns its slope, too.
 std::pair<double, double> robust_residual(double z) {
@@ -189,15 +188,13 @@ double explained_fraction(const Surrogate& surrogate, double w, double bench_var
   return std::min(1., simulated / bench_variance);
 }
 
-/// Of all runs, or of the full ones where there are coarse ones beside them.
-base::Fault too_few(const Observable& observable, std::size_t readings, bool are_full,
+base::Fault too_few(const Observable& observable, std::size_t readings,
                     const std::vector<Run>& runs, bool has_coarse) {
   int attempts = 0;
   std::string failure;
   std::string names;
   for (const Run& run : runs) {
     if (run.job.experiment != observable.experiment) continue;
-    if (are_full && run.job.inputs != AssumedInputs{}) continue;
     ++attempts;
     if (failure.empty()) failure = run.failure;
     for (const auto& [name, value] : run.readings) {
@@ -205,9 +202,8 @@ base::Fault too_few(const Observable& observable, std::size_t readings, bool are
       if (names.find(quoted) == std::string::npos) names += quoted;
     }
   }
-  std::string text = fmt::format(
-      "{} of {} runs of {}{} have the reading \"{}\": too few.", readings, attempts,
-      observable.experiment, are_full ? " with the study's own grains" : "", observable.reading);
+  std::string text = fmt::format("{} of {} runs of {} have the reading \"{}\": too few.", readings,
+                                 attempts, observable.experiment, observable.reading);
   if (!names.empty()) text += " Available readings:" + names + ".";
   if (!failure.empty()) text += " Some failed: " + failure + ".";
   return {.where = observable.name,
@@ -239,12 +235,9 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
     const Observable& observable = problem.observables[i];
     const TrainingSet training_set = training_set_of(
         problem, experiment_named(problem, observable.experiment), observable.reading, runs);
-    const std::size_t full = full_readings(training_set);
-    if (training_set.readings.size() < kFewestToLearn || full < kFewestFull) {
+    if (training_set.readings.size() < kFewestToLearn) {
       const bool has_coarse = experiment_named(problem, observable.experiment).coarse.has_value();
-      const bool lacks_full = has_coarse && full < kFewestFull;
-      errors.add(too_few(observable, lacks_full ? full : training_set.readings.size(), lacks_full,
-                         runs, has_coarse));
+      errors.add(too_few(observable, training_set.readings.size(), runs, has_coarse));
       continue;
     }
     std::optional<Surrogate> start;

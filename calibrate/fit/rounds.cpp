@@ -30,10 +30,9 @@ constexpr std::size_t kAnywhereEvery = 8;  // one of so many places is anywhere 
 /// Where a place of the sequence comes to lie.
 using Placing = std::function<Point(std::size_t place, Point point)>;
 
-/// `count` of the usual runs; where these are coarse, full ones at the first places besides.
+/// `count` of the usual runs.
 void add_jobs(const Problem& problem, const Experiment& experiment, int count,
               const Placing& placing, std::vector<Job>& jobs) {
-  int full = full_runs_of_first_round(experiment);
   std::size_t place = 0;
   for (int k = 0; k < count; ++k) {
     // The job after every fifth place is at that place again.
@@ -44,7 +43,6 @@ void add_jobs(const Problem& problem, const Experiment& experiment, int count,
     for (std::size_t c = 0; c < own.size(); ++c) point[experiment.parameters[c]] = own[c];
     Job job = job_at(problem, experiment, placing(place, std::move(point)),
                      problem.settings.seed + static_cast<unsigned>(k));
-    if (!repeat && full-- > 0) jobs.push_back(job);
     job.inputs = experiment.usual_inputs();
     jobs.push_back(std::move(job));
   }

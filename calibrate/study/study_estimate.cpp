@@ -37,10 +37,6 @@ std::vector<int> later_runs(const Problem& problem, const std::vector<Experiment
                             std::vector<int> round) {
   std::vector<int> runs(round.size(), 0);
   Cost left{problem.settings.budget_s, problem.settings.max_jobs};
-  for (const Experiment& experiment : experiments) {
-    left.seconds -= full_runs_of_first_round(experiment) * experiment.run_s;
-    left.jobs -= full_runs_of_first_round(experiment);
-  }
   for (int rounds_left = problem.settings.max_rounds - 1; rounds_left > 0; --rounds_left) {
     for (std::size_t e = 0; e < round.size(); ++e) {
       left.seconds -= round[e] * usual_run_s(experiments[e]);
@@ -167,9 +163,7 @@ std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget
     ExperimentEstimate& estimate = estimates.emplace_back(
         ExperimentEstimate{.experiment = name, .run_s = experiments[e].run_s});
     const double usual_s = usual_run_s(experiments[e]);
-    const int full = full_runs_of_first_round(experiments[e]);
-    estimate.phases[Phase::first_round] = {.runs = first[e] + full,
-                                           .seconds = first[e] * usual_s + full * estimate.run_s};
+    estimate.phases[Phase::first_round] = {.runs = first[e], .seconds = first[e] * usual_s};
     estimate.phases[Phase::later_rounds] = {.runs = later[e], .seconds = later[e] * usual_s};
     count(Phase::equal_sets, budget.family_sets * check_runs(problem, name, kFamilyRepeats),
           estimate);

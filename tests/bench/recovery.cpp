@@ -19,12 +19,14 @@
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/problem.h"
+#include "calibrate/fit/verification.h"
 #include "calibrate/result/result.h"
 #include "calibrate/runs/next_runs.h"
 #include "calibrate/runs/predicted_readings.h"
 #include "calibrate/runs/table_fit.h"
 #include "calibrate/runs/table_runs.h"
 #include "calibrate/runs/table_study.h"
+#include "calibrate/study/study_budget.h"
 #include "tests/bench/benches.h"
 #include "tests/bench/median.h"
 #include "tests/bench/recovery_tally.h"
@@ -37,6 +39,29 @@ namespace {
 
 namespace fake = calibrate::fake;
 
+/// As a study makes it: rounds, and where these have coarse runs checks of full ones.
+calibrate::JointFit checked_fit(const calibrate::Problem& problem) {
+  fake::Runs runs = fake::study(problem);
+  calibrate::JointFit fit = fit_jointly(problem, runs);
+  calibrate::Budget budget = calibrate::budget_named("quick");
+  budget.settings = problem.settings;
+  budget = calibrate::with_affordable_checks(budget, problem);
+  if (budget.verification_repeats == calibrate::budget_named("quick").verification_repeats) {
+    return fit;
+  }
+  for (int set = 0; set < budget.check_rounds; ++set) {
+    const bool is_last = set + 1 == budget.check_rounds;
+    const int repeats = is_last ? budget.verification_repeats : budget.round_repeats;
+    std::vector<double> values;
+    for (const auto& parameter : fit.parameters) values.push_back(parameter.value);
+    for (const calibrate::Job& job : verification_jobs(problem, values, repeats, set)) {
+      runs.push_back(fake::run(job));
+    }
+    fit = fit_jointly(problem, runs);
+  }
+  return fit;
+}
+
 /// On a made-up bench and with made-up simulations, whose truth is known exactly: minutes.
 void recover(const SimulatedRecovery& plan) {
   calibrate::Random random(plan.seed);
@@ -45,8 +70,11 @@ void recover(const SimulatedRecovery& plan) {
     const std::vector<double> truth = made_up_material(fake::parameters(), random);
     calibrate::Problem problem = fake::problem(truth, plan.seed + static_cast<unsigned>(m));
     problem.settings.budget_s = plan.budget_s;
+    for (calibrate::Experiment& experiment : problem.experiments) {
+      if (experiment.name == "heap") experiment.run_s = plan.heap_s.value_or(experiment.run_s);
+    }
     if (plan.coarse_size) fake::coarsen(problem, *plan.coarse_size);
-    tally.add(fit_jointly(problem, fake::study(problem)), truth, plan.verbose);
+    tally.add(checked_fit(problem), truth, plan.verbose);
   }
   tally.print();
 }
@@ -213,6 +241,8 @@ void add_recovery(CLI::App& bench) {
   app.add_option("--coarse", plan->coarse_size,
                  "made-up simulations: heaps of grains so many times their size besides")
       ->check(CLI::Range(1.1, 8.));
+  app.add_option("--heap-s", plan->heap_s, "made-up simulations: seconds that a full heap takes")
+      ->check(CLI::PositiveNumber);
   app.add_option("--simulated", plan->study,
                  "a study file: measure and calibrate with real simulations of it");
   app.add_option("--experiments", plan->experiments, "with --simulated: make only these")

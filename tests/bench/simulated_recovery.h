@@ -21,6 +21,7 @@ struct SimulatedRecovery {
   double budget_s = 150;  ///< of one core, for each material
   std::uint64_t seed = 1;
   std::optional<double> coarse_size = {};  ///< of grains in cheaper heaps; none: all are full
+  std::optional<double> heap_s = {};       ///< that a made-up heap of the study's grains takes
   bool verbose = false;
 };
 

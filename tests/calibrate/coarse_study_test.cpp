@@ -10,7 +10,6 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/experiment/run_spec.h"
-#include "calibrate/fit/budget.h"
 #include "calibrate/fit/points.h"
 #include "calibrate/study/study_estimate.h"
 #include "calibrate/study/study_problem.h"
@@ -149,7 +148,7 @@ TEST_F(CoarseStudy, TheFolderTellsMixedRunsFromFullOnes) {
   EXPECT_TRUE(is_same_study(mixed, identity_of(few)));
 }
 
-TEST_F(CoarseStudy, ItsWorkIsForeseenWithBothKinds) {
+TEST_F(CoarseStudy, ItsRoundsAreForeseenAsCoarseRuns) {
   const StudyRecord mixed = record();
   StudyRecord full = mixed;
   full.budget.is_full = true;
@@ -159,8 +158,7 @@ TEST_F(CoarseStudy, ItsWorkIsForeseenWithBothKinds) {
     return *std::ranges::find(estimates, "heap", &ExperimentEstimate::experiment);
   };
   const PhaseWork first = heap_in(estimate_of(problem, mixed.budget)).of(Phase::first_round);
-  const int pairs = full_runs_of_first_round(heap);
-  EXPECT_NEAR(first.seconds, pairs * heap.run_s + (first.runs - pairs) * usual_run_s(heap), 1e-9);
+  EXPECT_NEAR(first.seconds, first.runs * usual_run_s(heap), 1e-9);
   const PhaseWork all_full =
       heap_in(estimate_of(problem_in(full), full.budget)).of(Phase::first_round);
   EXPECT_LT(first.seconds / first.runs, .5 * all_full.seconds / all_full.runs);

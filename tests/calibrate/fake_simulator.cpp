@@ -44,8 +44,7 @@ double scattered(const std::string& experiment, const std::string& reading, doub
 double size_effect(const Job& job, Random& random) {
   const double size = job.inputs.size;
   if (size == 1) return 0;
-  const double middle = .425;
-  return kSizeShift * std::log2(size) * job.values[4] / middle + .7 * (size - 1) * random.normal();
+  return size_shift(job.values[4]) * std::log2(size) + .7 * (size - 1) * random.normal();
 }
 
 double heap(const std::string& reading, const std::vector<double>& v) {
@@ -72,6 +71,11 @@ std::vector<Experiment> experiments() {
           {"tilt", {0, 1, 2}, .5, false, {"value"}},
           {"roll", {0, 1, 2}, 1, true, {"value"}},
           {"heap", {0, 1, 2, 3, 4, 5}, 25, true, {"value", "base_radius_mm"}}};
+}
+
+double size_shift(double sliding_friction) {
+  const double off = (sliding_friction - .45) / .35;
+  return (off < 0 ? -5.5 : -3.5) * off * off;
 }
 
 double expected(const std::string& experiment, const std::string& reading,

@@ -29,9 +29,10 @@ using Runs = std::vector<Run>;
 /// What a tenth of the stiffness adds to the angle of a heap, degrees.
 inline constexpr double kSofteningShift = 2.5;
 
-/// What grains of twice the size add to the angle of a heap of the middle sliding friction,
-/// degrees; it goes with that friction.
-inline constexpr double kSizeShift = 1.5;
+/// What grains of twice the size add to the angle of a heap, degrees: nothing in the middle, up to
+/// -7 with less friction and to -4 with more, as heaps of wheat do (docs/simulating.md, "Heaps of
+/// larger grains").
+double size_shift(double sliding_friction);
 
 /// What four times the spheres leave of a rebound.
 inline constexpr double kFinerRebound = .5;
