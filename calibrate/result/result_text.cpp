@@ -321,11 +321,13 @@ std::string coarse_text(const JointResult& joint) {
     const std::string& unit = joint.observables[k].unit;
     text += fmt::format(
         "{}{} of {} runs of {} were of grains {:.3g} times as large, which are taken to read "
-        "{:+.2g} "
-        "± {:.2g}{}{} beside the study's (95 %) and scatter {:.2g} times as much",
+        "{:+.2g} ± {:.2g}{}{} beside the study's (95 %) and scatter {:.2g} times as much",
         text.empty() ? "" : "; ", coarse.runs, surrogate.runs, surrogate.observable, coarse.size,
         coarse.shift, base::kNormal95 * coarse.uncertainty, unit.empty() ? "" : " ", unit,
         coarse.scatter);
+    if (surrogate.full_runs() == 0) {
+      text += ", which is assumed: none of the study's own has been simulated yet";
+    }
     if (coarse.failed_runs > 0) {
       text += fmt::format("; {} more of these gave no reading", coarse.failed_runs);
     }

@@ -428,6 +428,17 @@ TEST(AgreementText, ADifferenceTooSmallToMatterIsSaidAllTheSame) {
   EXPECT_THAT(agreement_text(check, 1), Not(HasSubstr("more than chance")));
 }
 
+TEST(CoarseText, SaysWhatIsAssumedBeforeThereIsARunOfTheStudysOwnGrains) {
+  StudyResult result = test::joint_result();
+  JointResult& joint = joint_in(result);
+  EXPECT_THAT(coarse_text(joint),
+              AllOf(HasSubstr("8 of 12 runs of drop"), HasSubstr("2 more of these gave no reading"),
+                    Not(HasSubstr("assumed"))));
+  for (SurrogateQuality& surrogate : joint.surrogates) surrogate.coarse->runs = surrogate.runs;
+  EXPECT_THAT(coarse_text(joint), HasSubstr("12 of 12 runs of drop"));
+  EXPECT_THAT(coarse_text(joint), HasSubstr("which is assumed: none of the study's own"));
+}
+
 TEST(AgreementText, AVerdictThatRestsOnABoundSaysWhatTheBoundIs) {
   ResultParameter parameter;
   parameter.verdict = Verdict::one_sided;
