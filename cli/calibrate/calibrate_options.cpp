@@ -204,9 +204,9 @@ Methods:
   joint     all unknowns fitted to all measurements at once, with intervals
   paper     a published calibration procedure: point estimates, for comparison
 
---minutes N takes as many simulations as are foreseen to end within N minutes on
-the cores used, checks and all, or says how many minutes the least fit takes. It
-is timed once, at the beginning: resumed, the study goes on by the same plan.
+--minutes N makes as many simulations as are expected to finish within N minutes
+on the cores used, checks included, or says how many minutes the smallest fit
+takes. Runs are timed once, at the beginning: a resumed study keeps its plan.
 
 Budgets:
   quick     14 minutes on one core for the fit
@@ -217,23 +217,25 @@ The minutes are estimates for heaps of a few hundred grains; checks are extra.
 reports how many simulations each budget takes for what, and how long that is.
 It needs the bench readings, and saves nothing.
 
-Of heaps of many small grains, most runs are of fewer, larger ones in the same
-tube, off by what runs of the study's own beside them tell; the checks are of the
-study's own. --fidelity full makes no others.
+For heaps of many small grains, most runs use fewer, larger grains in the same
+tube; how far off these are is estimated from some runs with the study's own, as
+which all checks are made. --fidelity full uses the study's own grains only.
 
 --rolling-models constant_torque,elastic_plastic calibrates the study with each
 of them, in folders of their own, and says which one explains the bench readings
 best: their means, and how much they scatter.
 
-With --runs nothing is simulated: STUDY has [parameter] and [measured] in place of
-a particle, RUNS.csv a row for each run of any program, with the columns of both
-and, if known, NAME_sd and n of runs that a row is the mean of, seed and status.
+With --runs nothing is simulated: STUDY has [parameter] and [measured] instead
+of a particle, and RUNS.csv a row for each run of any program, with columns
+named after both. Optional columns are seed, status and, for rows that are means
+of several runs, n and NAME_sd.
 
-Where such a study has [engine] with command = "python3 run.py", repose makes runs
-with it: each in a folder below --out, --jobs at once (1), until nothing more would
-narrow the answer or --max-runs were made; then it fits. The same command goes on
-after an interruption. --dry-run tells how many runs are next, and how long they
-take if any was made. docs/engines.md describes what the command is given.
+If such a study has [engine] with command = "python3 run.py", repose makes runs
+with it: each in a folder below --out, --jobs at once (1), until nothing more
+would narrow the answer or --max-runs have been made; then it fits. The same
+command resumes after an interruption. --dry-run says how many runs are next and,
+once one has been made, how long they take. docs/engines.md describes the
+command's input.
 
 Examples:
   repose calibrate study.toml --dry-run

@@ -130,16 +130,17 @@ Take ten or more with the zoom and focus that the heaps are photographed with:
 the board filling half of the picture or more, sharp, in the middle and in every
 corner, turned by 20 to 40 degrees to the left, right, up and down.
 
-Fitted are one focal length, the place of the lens's axis, and of the distortion
-(Brown-Conrady, as in OpenCV) only as many coefficients as the pictures support.
+The fit has one focal length, the position of the lens's axis, and as many
+distortion coefficients (Brown-Conrady, as in OpenCV) as the pictures support.
 Uncertainties are half-widths of 95 % intervals.
 
 Refused, with the reason: fewer than 5 pictures with the board, pictures of
 different sizes, boards that all face the same way or cover too little of the
-picture, corners too far from the fit, a focal length that stays uncertain.
+picture, corners too far from the fit, a focal length that remains uncertain.
 
 The camera file is for repose measure --camera-file, which then corrects the
-lens's distortion. It holds for whole pictures of any size from this camera.
+lens's distortion. It is valid for uncropped pictures of any size from this
+camera.
 
 Examples:
   repose camera board_photos --out camera.toml

@@ -240,18 +240,18 @@ Verdict on the angles, from the 95 % interval of their difference:
 The verdict on two pictures is about these two heaps. Heaps of the same grains
 differ too: give folders instead of pictures to compare sets of heaps by their
 means, which is a verdict on the grains. A folder contains photographs, one per
-heap (with --group-by-name those whose names differ in a last number after _ or
-- alone are of one heap, which has their mean), or simulated heaps, as written
+heap (with --group-by-name, those whose names differ only in a last number after
+_ or - show one heap, which has their mean), or simulated heaps, as written
 by repose simulate heap --out and repose calibrate --out; a .vtp file is one
-such heap, as is a file of particles of another program (repose measure tells
-how they are read). Its pictures are drawn as from far away. A level camera
-that stands three widths from the heap reads some .8 degrees less, for the nuts
-of the sample: --camera-mm says where the photographs were taken from, by the
-lens's distance from the heap's middle and its height above the ground, so that
-both sets are seen alike. A three-dimensional scan, or a folder of them, is
+such heap, as is a file of particles of another program (see repose measure
+--help). Simulated heaps are drawn as seen from far away. A level camera three
+widths from the heap reads some .8 degrees less, for the nuts of the sample:
+--camera-mm says where the photographs were taken from, as the lens's distance
+from the heap's middle and its height above the ground, so that both sets are
+seen alike. A three-dimensional scan, or a folder of them, is
 drawn likewise: its angle here is that of its silhouettes, not of its slices.
-Where a photograph is compared with one scan, it shows one side: by how much the
-scan's views scatter is in the interval.
+A photograph compared with one scan shows one side only: the scatter of the
+scan's views is in the interval.
 
 Scale: mm per pixel, or the known width of the base. One value applies to both
 pictures, A,B to one each. A scale that repose measure --save-hints has saved

@@ -233,7 +233,7 @@ the frame nearest to each tenth of a second, for the angle over time; means and
 the report are of heaps at rest alone.
 
 Methods:
-  auto   Segments the heap in several ways and takes the most convincing
+  auto   Segments the heap in several ways and keeps the most convincing
          silhouette. Finds the ground line; leaves out the crest and stray
          grains; fits a robust line to each side within the window, in which
          aprons (feet much flatter than the flank above) count little; the
@@ -272,12 +272,11 @@ also gives the camera's pitch. Hints are in the pixels of the picture as it is,
 overlays show the corrected one.
 
 Uncertainties are half-widths of 95 % intervals. The mean of several pictures
-includes all that could be measured, but for flagged ones that are outliers
-among them; the mean of those that are ok stands beside it. A flagged picture
-counts, but has a warning to check; a refused one has a reason instead of an
-angle. Photographs of one heap from several sides are one heap: with
---group-by-name those whose names differ in a last number after _ or - alone
-count once, with their mean.
+includes all that could be measured, except flagged ones that are outliers; the
+mean of those that are ok is given beside it. A flagged picture counts, but has
+a warning to check; a refused one has a reason instead of an angle. Photographs
+of one heap from several sides are one heap: with --group-by-name those whose
+names differ only in a last number after _ or - count once, with their mean.
 )";
 
 }  // namespace

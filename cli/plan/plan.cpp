@@ -129,13 +129,14 @@ namespace {
 constexpr const char* kPlanNotes = R"(
 Which experiments would determine the coefficients that a study seeks? Simulates
 every experiment that repose offers, those of the study as it describes them and
-the others in the usual way, all over the bounds of the coefficients, and prints
-  - what each experiment tells: by how many of its uncertainties its mean
-    reading changes while a coefficient goes from bound to bound
+the others with their usual settings, throughout the bounds of the coefficients,
+and prints
+  - what each experiment is sensitive to: by how many of its uncertainties its
+    mean reading changes while a coefficient goes from bound to bound
   - the smallest set of experiments that would determine what is open, and the
-    95 % interval of each coefficient to be expected with it
+    expected 95 % interval of each coefficient
   - what to add to the study for them
-Experiments that the study has readings of count as done; none need have any.
+Experiments with readings in the study count as done; no readings are needed.
 
 Simulations are saved in --out: an interrupted plan is resumed by the same
 command, and repose calibrate uses them too.

@@ -292,9 +292,9 @@ By default the camera is level and all grains fit.
 pixels from the top left corner; of a film with --fps the scale for repose track
 and where the grains are in each frame.
 
-Without --fps a film has a frame for each state of the trajectory. With it, it
-plays as fast as the run went, states in between are computed, and the bench is
-cut to the length of the grains' way. Simulate with a --trajectory-s of 0.001.
+Without --fps a film has a frame for each state of the trajectory. With it, the
+film plays in real time, states in between are interpolated, and the bench is
+cut to the length of the grains' path. Simulate with --trajectory-s 0.001.
 
 Examples:
   repose render heaps/heap_seed_1.vtp --out heap.png

@@ -103,13 +103,13 @@ ExitCode run_ask(const AskArguments& arguments) {
 }
 
 constexpr const char* kAskNotes = R"(
-Says which runs to make next with whatever program, for a study with [parameter]
-and [measured]: as long as there are too few for a fit, runs that fill the bounds
-evenly; then those that narrow the answer most, each with its reason. It asks for
-fewer, or none, where further runs would not narrow it, and says what would.
+Says which runs to make next with any program, for a study with [parameter] and
+[measured]: while there are too few for a fit, runs that fill the bounds evenly;
+then those that narrow the answer most, each with its reason. If further runs
+would not narrow it, repose asks for fewer, or none, and says what would.
 
 NEXT.csv has the columns of the first RUNS.csv, or else those of the study, with
-the parameters filled in, and a column for the reason. It is not written where
+the parameters filled in, and a column for the reason. It is not written if
 there is nothing to ask for.
 
 Examples:

@@ -149,11 +149,11 @@ ExitCode run_predict(const PredictArguments& arguments) {
 }
 
 constexpr const char* kPredictNotes = R"(
-Tells what each reading would be at the parameters in the rows of POINTS.csv, by
-surfaces through runs that are there; nothing is simulated. STUDY is one with
-[parameter], and RUNS.csv the table of its runs; or, without --runs, a study that
-repose calibrate has simulated: the runs are those in its folder,
-STUDY_calibration, which can be given in its place.
+Predicts each reading at the parameters in the rows of POINTS.csv from surfaces
+through existing runs; nothing is simulated. STUDY is one with [parameter], and
+RUNS.csv the table of its runs; or, without --runs, a study that repose
+calibrate has simulated: the runs are those in its folder, STUDY_calibration,
+which can be given instead.
 
 Each reading has two 95 % intervals: of one further run, and of the mean of very
 many. Points outside the study's bounds are refused.

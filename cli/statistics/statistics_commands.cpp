@@ -77,9 +77,9 @@ READINGS are CSV tables with a row for each repeat and these columns:
 )";
 
 constexpr const char* kBenchNotes =
-    R"(Columns after a semicolon may be left out. A grain's diameter and density take
-out the drag of the air on a drop (in_air=0: there is none in the heights), a
-ball's diameter what it loses at the foot of the incline.
+    R"(Columns after a semicolon are optional. A grain's diameter and density correct
+a drop for air drag (in_air=0: the heights are already free of it), a ball's
+diameter corrects for what it loses at the foot of the incline.
 
 A column "sample" names the grain: repeats on one grain are averaged first. A
 reading that is the same in all rows, or a short list, can be given with --set.
@@ -127,13 +127,13 @@ Examples:
 
 constexpr const char* kRegressNotes = R"(
 TABLE is a CSV table with one row per run, a column for each factor and one for
-the response. Without --factors, all columns but the response and those that
-are written beside a design (order of runs, kind of point, NAME_coded, remarks)
-are factors. What is not used is listed.
+the response. Without --factors, all columns are factors but the response and
+the bookkeeping of a design (order of runs, kind of point, NAME_coded, remarks).
+Columns that are not used are listed.
 
-Runs of another day or batch may be shifted as a whole: --blocks names the
-column that tells them apart. A column of text, or one called block, is taken
-for it unless --blocks none is given.
+Runs of different days or batches may be shifted as a whole: --blocks names the
+column that distinguishes them. A text column, or one called block, is used
+unless --blocks none is given.
 
 Models: linear (1, A), interaction (and A*B), quadratic (and A^2). Factors are
 coded: --coding gives the levels coded as -1 and 1; otherwise a column that is

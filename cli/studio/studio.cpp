@@ -86,16 +86,16 @@ ExitCode run_studio(const StudioArguments& arguments) {
 }
 
 constexpr const char* kStudioNotes = R"(
-A page in your browser on which pictures, films and scans of heaps are looked
-at, corrected and summarised, and studies are started, filled in and calibrated,
-with the command line that does the same beside each step. FOLDER holds them
-(the present folder if left out). Corrections are saved beside the pictures, as
-repose measure --save-hints does; a calibration goes on when the page is closed,
-and stops in good order with the studio.
+A page in your browser for viewing, correcting and summarising pictures, films
+and scans of heaps, and for starting, filling in and calibrating studies. Each
+step shows the command line that does the same. FOLDER holds the files (the
+current folder if left out). Corrections are saved beside the pictures, as
+repose measure --save-hints does; a calibration continues when the page is
+closed, and stops in good order with the studio.
 
-The page is for this machine alone: nothing of it can be reached from another,
-nor by other pages in the same browser, and it needs no network. The address
-that is printed holds a key: who has it may do all that the page can do.
+The page is for this machine alone: it cannot be reached from another machine or
+from other pages in the same browser, and it needs no network. The address
+that is printed contains a key: whoever has it can do all that the page can do.
 
 Examples:
   repose studio photos

@@ -195,8 +195,8 @@ with numbers in their names. FILE may be - for standard output.
   drop   The grain falls on a level plate and bounces. Parabolas are fitted
          to its flights, all with one gravity, which is the ruler: the ratio
          of the speeds at an impact needs no scale.
-  roll   The grain rolls down an incline and on along the flat until it lies
-         still. Two straight lines are fitted to its path; the foot is where
+  roll   The grain rolls down an incline and on along the flat until it is at
+         rest. Two straight lines are fitted to its path; the foot is where
          the planes below them meet. Distances are along the planes from
          there, in millimetres of --scale or --board, or of --released: how far
          up the incline the grains were let go.
@@ -208,9 +208,9 @@ with numbers in their names. FILE may be - for standard output.
 Heights of a drop are those of a fall without air to the speed at the impact.
 With a scale they are in its millimetres, and the film's frame rate is checked
 against gravity. The scale is --scale, or with --board the printed board (repose
-board) upright beside the grain's way, in its plane, facing the camera. Without,
-they follow from gravity and the frame rate, and are wrong where a film does not
-play as fast as it was taken (slow motion).
+board) upright beside the grain's path, in its plane, facing the camera. Without
+a scale they follow from gravity and the frame rate, and are wrong if a film
+does not play as fast as it was taken (slow motion).
 
 The table for --csv has the columns that repose bench restitution reads, or
 rolling, or sliding, and a film's name as sample.
