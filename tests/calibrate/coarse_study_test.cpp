@@ -21,6 +21,7 @@
 namespace repose::calibrate {
 namespace {
 
+using repose::testing::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::Ge;
 using ::testing::HasSubstr;

@@ -1,10 +1,12 @@
 #include "calibrate/export/export.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <string>
+#include <vector>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "dem/contact/restitution.h"
@@ -15,15 +17,19 @@
 #include "dem/experiment/heap.h"
 #include "dem/experiment/pendulum.h"
 #include "dem/experiment/roll.h"
-#include "dem/experiment/tilt.h"
 #include "dem/experiment/tilt_on_grains.h"
+#include "tests/calibrate/exported_study.h"
 #include "tests/calibrate/made_up_result.h"
-#include "tests/dem/experiment_model.h"
 #include "tests/support/temporary_folder.h"
 
 namespace repose::calibrate {
 namespace {
 
+using test::exported;
+using test::file_text;
+using test::hazelnuts;
+using test::kWallRolling;
+using test::names_of;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -31,38 +37,6 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
-
-constexpr const char* kWallRolling = "contact.particle_wall.rolling_friction";
-
-dem::Study hazelnuts(dem::RollingModel rolling = dem::RollingModel::relative_constant_torque) {
-  dem::Study study;
-  study.model = dem::test::clump_bench();
-  study.model.rolling = rolling;
-  study.experiments[dem::experiment_of<dem::DropProtocol>()].protocol = dem::DropProtocol{};
-  study.experiments[dem::experiment_of<dem::TiltProtocol>()].protocol = dem::TiltProtocol{};
-  study.experiments[dem::experiment_of<dem::RollProtocol>()].protocol = dem::RollProtocol{};
-  study.experiments[dem::experiment_of<dem::HeapProtocol>()].protocol = dem::HeapProtocol{};
-  study.experiments[dem::experiment_of<dem::HeapProtocol>()].stiffness_factor = .01;
-  return study;
-}
-
-StudyExport exported(const dem::Study& study, ExportTarget target, bool approximate = true) {
-  return export_study(study, study.model.grain, {},
-                      {.target = target, .takes_approximate = approximate});
-}
-
-std::string file_text(const StudyExport& made, const std::string& name) {
-  for (const ExportedFile& file : made.files) {
-    if (file.name == name) return file.text;
-  }
-  return "";
-}
-
-std::vector<std::string> names_of(const StudyExport& made) {
-  std::vector<std::string> names;
-  for (const ExportedFile& file : made.files) names.push_back(file.name);
-  return names;
-}
 
 TEST(ExportStudy, EachProgramHasItsDecksAndAReadme) {
   const std::vector<std::pair<ExportTarget, std::vector<std::string>>> expected = {
@@ -212,20 +186,6 @@ TEST(ExportStudy, PartsOfAnotherMaterialAreInTheOtherProgramsOrSaidToHaveNoDeck)
                     HasSubstr("grain with grain,Coefficient of Static Friction,0.21,")));
 }
 
-TEST(ExportStudy, EdemsTextHasWhatDropsAreMadeFrom) {
-  dem::Study study = hazelnuts();
-  study.experiments[dem::experiment_of<dem::DropProtocol>()].protocol =
-      dem::DropProtocol{.height_m = .25};
-  study.model.wall_material.density_kg_m3 = 7850;
-  EXPECT_THAT(file_text(exported(study, edem_target()), "values.txt"),
-              AllOf(HasSubstr("Solids Density        7850 kg/m^3"), HasSubstr("Drop: one grain"),
-                    HasSubstr("Height                0.25 m"),
-                    HasSubstr("Grains                10"), Not(HasSubstr("Second height"))));
-  study.experiments.erase(dem::experiment_of<dem::DropProtocol>());
-  EXPECT_THAT(file_text(exported(study, edem_target()), "values.txt"),
-              Not(HasSubstr("Drop: one grain")));
-}
-
 TEST(ExportStudy, APartWithoutAnExperimentNeedsNoCoefficients) {
   dem::Study study = on_two_materials();
   dem::Coefficient& restitution = study.particle_parts[dem::WallPart::tube].restitution;
@@ -294,147 +254,6 @@ TEST(ExportStudy, RestitutionThatDependsOnTheSpeedIsRefused) {
                 AllOf(HasSubstr("contact.particle_wall.restitution_exponent = 0.1"),
                       HasSubstr(name_of(target)), HasSubstr("3 m/s"), HasSubstr("Fix:")));
   }
-}
-
-TEST(ExportStudy, EdemIsToldItsOwnNameOfTheRollingModel) {
-  using dem::RollingModel;
-  for (const auto& [model, name] : {std::pair(RollingModel::constant_torque, "Standard"),
-                                    {RollingModel::relative_constant_torque, "RVD"},
-                                    {RollingModel::elastic_plastic, "Type C"}}) {
-    const StudyExport made = exported(hazelnuts(model), edem_target(), false);
-    EXPECT_THAT(file_text(made, "values.txt"), HasSubstr(std::string(name) + " Rolling Friction."));
-    EXPECT_THAT(file_text(made, "README.txt"),
-                HasSubstr("for EDEM: Hertz-Mindlin (no slip), " + std::string(name) +
-                          " Rolling Friction\n"));
-    const bool is_damped = model == RollingModel::elastic_plastic;
-    for (const char* file : {"values.txt", "values.csv"}) {
-      EXPECT_EQ(file_text(made, file).find("Rolling Viscous Damping Ratio") != std::string::npos,
-                is_damped)
-          << file << ' ' << name;
-    }
-    EXPECT_THAT(file_text(made, "values.csv"),
-                HasSubstr("grain with wall,Coefficient of Rolling Friction,"));
-  }
-}
-
-// What a heap is rebuilt from stands beside the coefficients and how well these are known.
-TEST(ExportStudy, EdemIsToldHowToRebuildTheHeap) {
-  dem::Study study = hazelnuts();
-  dem::HeapProtocol protocol;
-  protocol.tube_diameter_m = .07;
-  protocol.lift_speed_m_s = .045;
-  protocol.grains = 321;
-  study.experiments[dem::experiment_of<dem::HeapProtocol>()].protocol = protocol;
-  study.model.grain_material.young_modulus_pa = 1.234567891e9;
-  const StudyExport made = export_study(
-      study, study.model.grain,
-      {{.name = kWallRolling, .value = .1, .low = .02, .high = .2, .verdict = "bounded"}},
-      {.target = edem_target()});
-  const std::string values = file_text(made, "values.txt");
-  EXPECT_THAT(values, AllOf(HasSubstr("inner diameter 0.07 m"), HasSubstr("321 (by the study)"),
-                            HasSubstr("0.045 m/s"), HasSubstr("9.80665 m/s^2"),
-                            HasSubstr("interval 0.02 to 0.2: bounded"),
-                            HasSubstr("times 0.01, as simulated here: nut 4.47307e+06 Pa")))
-      << values;
-}
-
-/// Spheres as a table with tabs has them, below its headings.
-std::vector<dem::ClumpSphere> pasted(const std::string& table) {
-  std::istringstream lines(table);
-  std::string headings;
-  std::getline(lines, headings);
-  EXPECT_EQ(std::count(headings.begin(), headings.end(), '\t'), 3);
-  std::vector<dem::ClumpSphere> spheres;
-  for (std::string line; std::getline(lines, line);) {
-    EXPECT_EQ(std::count(line.begin(), line.end(), '\t'), 3);
-    std::istringstream words(line);
-    dem::ClumpSphere& sphere = spheres.emplace_back();
-    words >> sphere.centre.x() >> sphere.centre.y() >> sphere.centre.z() >> sphere.radius;
-  }
-  return spheres;
-}
-
-TEST(ExportStudy, EdemsSpheresCanBePasted) {
-  const dem::Study study = hazelnuts();
-  const auto spheres = pasted(file_text(exported(study, edem_target()), "spheres.txt"));
-  ASSERT_EQ(spheres.size(), study.model.grain.spheres.size());
-  for (std::size_t k = 0; k < spheres.size(); ++k) {
-    EXPECT_EQ(spheres[k].centre, study.model.grain.spheres[k].centre);
-    EXPECT_EQ(spheres[k].radius, study.model.grain.spheres[k].radius);
-  }
-}
-
-dem::Coefficient sought(double min, double max) {
-  dem::Coefficient coefficient;
-  coefficient.min = min;
-  coefficient.max = max;
-  return coefficient;
-}
-
-/// Grains' friction is not determined, and their restitution is: by a heap and a drop.
-StudyExport to_be_run_further(ExportTarget target, const std::string& verdict = "bounded") {
-  dem::Study study = hazelnuts();
-  study.particle_particle.restitution = sought(.1, .9);
-  study.particle_particle.rolling_friction = sought(.02, .3);
-  study.experiments[dem::experiment_of<dem::HeapProtocol>()].definition = "whole_flank";
-  return export_study(
-      study, study.model.grain,
-      {{.name = "contact.particle_particle.restitution",
-        .value = .5,
-        .low = .45,
-        .high = .55,
-        .verdict = "determined"},
-       {.name = "contact.particle_particle.rolling_friction", .value = .1, .verdict = verdict}},
-      {.target = target, .takes_approximate = true}, {},
-      {{.experiment = "drop", .unit = "mm", .mean = 9, .uncertainty = .5},
-       {.experiment = "heap", .unit = "deg", .mean = 23.4, .uncertainty = .25}});
-}
-
-TEST(ExportStudy, FurtherRunsVaryWhatIsNotDetermined) {
-  const std::string study = file_text(to_be_run_further(edem_target()), "further_runs.toml");
-  EXPECT_THAT(
-      study,
-      AllOf(HasSubstr("\"grain with grain: Coefficient of Rolling Friction\" = { min = 0.02, "
-                      "max = 0.3 }"),
-            HasSubstr("heap = { mean = 23.4, sd = 0.25, n = 1, unit = \"deg\", definition = "
-                      "\"whole_flank\" }"),
-            Not(HasSubstr("drop = ")), Not(HasSubstr("Restitution\" ="))));
-  EXPECT_THAT(
-      file_text(to_be_run_further(edem_target(), "determined"), "further_runs.toml"),
-      HasSubstr("\"grain with grain: Coefficient of Restitution\" = { min = 0.1, max = 0.9 }"));
-  // A damper falls where restitution rises.
-  const std::string dampers =
-      file_text(to_be_run_further(yade_target(), "determined"), "further_runs.toml");
-  EXPECT_THAT(dampers,
-              HasSubstr(fmt::format("\"grain with grain: betan\" = {{ min = {:.6g}, max = "
-                                    "{:.6g} }}",
-                                    dem::damping_factor(.9) / 2, dem::damping_factor(.1) / 2)));
-  // LAMMPS has no heap, and grains touch in no other experiment of the study.
-  EXPECT_THAT(names_of(to_be_run_further(lammps_target())), Not(Contains("further_runs.toml")));
-  EXPECT_THAT(file_text(to_be_run_further(lammps_target()), "README.txt"),
-              AllOf(HasSubstr("repose measure heap.dump --unit m --definition whole_flank"),
-                    Not(HasSubstr("repose ask"))));
-}
-
-// Their decks print the angle at half a millimetre's slip, and the bench gives the onset.
-TEST(ExportStudy, ATiltIsNoReadingOfFurtherRunsOfDecks) {
-  const auto further = [](ExportTarget target) {
-    dem::Study study = hazelnuts();
-    study.particle_wall.sliding_friction = sought(.1, .8);
-    return export_study(study, study.model.grain,
-                        {{.name = "contact.particle_wall.sliding_friction",
-                          .value = .4,
-                          .verdict = "undetermined"}},
-                        {.target = target, .takes_approximate = true}, {},
-                        {{.experiment = "tilt", .unit = "deg", .mean = 22.7, .uncertainty = .5},
-                         {.experiment = "heap", .unit = "deg", .mean = 23.4, .uncertainty = .25}});
-  };
-  for (const ExportTarget target : {yade_target(), liggghts_target()}) {
-    EXPECT_THAT(file_text(further(target), "further_runs.toml"), Not(HasSubstr("tilt =")));
-    EXPECT_THAT(file_text(further(target), "README.txt"),
-                HasSubstr("The tilt is no reading of further runs"));
-  }
-  EXPECT_THAT(file_text(further(edem_target()), "further_runs.toml"), HasSubstr("tilt = "));
 }
 
 TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
