@@ -160,11 +160,15 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
   for (;;) {
     Check check(problem, outcome);
     const int rounds_left = budget.check_rounds - outcome.check_rounds;
-    const auto few = runner.get(
-        fmt::format("check {} of at most {}", outcome.check_rounds, budget.check_rounds),
-        check.jobs(budget.round_repeats), checks_s(problem, budget, rounds_left) + last_s);
-    if (!few) return false;
-    if (!check.add(*few, tried) && rounds_left > 0) continue;
+    const bool is_last = rounds_left == 0;
+    const auto first =
+        runner.get(fmt::format("check {} of at most {}", outcome.check_rounds, budget.check_rounds),
+                   check.jobs(is_last ? budget.verification_repeats : budget.round_repeats),
+                   last_s + (is_last ? 0 : checks_s(problem, budget, rounds_left)));
+    if (!first) return false;
+    const bool is_settled = check.add(*first, tried);
+    if (is_last) return true;
+    if (!is_settled) continue;
     const auto rest = runner.get("last check", check.jobs(budget.verification_repeats), last_s);
     if (!rest) return false;
     check.add(*rest, tried);
