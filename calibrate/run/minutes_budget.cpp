@@ -24,13 +24,15 @@ constexpr double kLeastComputed_s = 10;
 constexpr double kMostOfChecks = .5;
 
 struct Checks {
+  int rounds;
   int round_repeats;
   int verification_repeats;
   int family_sets;
 };
 
 /// From those of the budgets with a name to the fewest that tell a mean's scatter.
-constexpr std::array<Checks, 5> kChecks{{{6, 24, 2}, {5, 16, 1}, {4, 10, 1}, {3, 6, 0}, {2, 4, 0}}};
+constexpr std::array<Checks, 5> kChecks{
+    {{3, 6, 24, 2}, {3, 5, 16, 1}, {3, 4, 10, 1}, {2, 3, 6, 0}, {2, 2, 4, 0}}};
 
 Budget budget_with(double minutes, const Checks& checks) {
   constexpr double kLong_minutes = 60;
@@ -38,6 +40,7 @@ Budget budget_with(double minutes, const Checks& checks) {
   Budget budget = budget_named(rounds);
   budget.name = name_of_minutes(minutes);
   budget.minutes = minutes;
+  budget.check_rounds = checks.rounds;
   budget.round_repeats = checks.round_repeats;
   budget.verification_repeats = checks.verification_repeats;
   budget.family_sets = checks.family_sets;

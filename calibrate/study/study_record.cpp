@@ -116,6 +116,7 @@ Json limits_json(const Budget& budget) {
           {"core_s", budget.settings.budget_s},
           {"max_jobs", budget.settings.max_jobs},
           {"max_rounds", budget.settings.max_rounds},
+          {"check_rounds", budget.check_rounds},
           {"round_repeats", budget.round_repeats},
           {"verification_repeats", budget.verification_repeats},
           {"family_sets", budget.family_sets}};
@@ -129,6 +130,7 @@ std::optional<Budget> limits_in(const Json& json) {
                 .settings = {.budget_s = limits.at("core_s"),
                              .max_jobs = limits.at("max_jobs"),
                              .max_rounds = limits.at("max_rounds")},
+                .check_rounds = limits.value("check_rounds", kMaxCheckRounds),
                 .round_repeats = limits.at("round_repeats"),
                 .verification_repeats = limits.at("verification_repeats"),
                 .family_sets = limits.at("family_sets"),

@@ -40,6 +40,16 @@ class MinutesBudget : public ::testing::Test {
     return seconds / 60;
   }
 
+  std::string refusal_of_two_minutes() const {
+    return error_of([&] { budget_within(2, problem_, pace_, 1); });
+  }
+
+  /// That a refusal names.
+  static double least_minutes(const std::string& refusal) {
+    const std::string option = "--minutes ";
+    return std::stod(refusal.substr(refusal.find(option) + option.size()));
+  }
+
   repose::testing::TemporaryFolder folder_;
   dem::Study study_;
   dem::ClumpFile grain_;
@@ -58,6 +68,15 @@ TEST_F(MinutesBudget, SpendsWhatItIsGivenAndNoMore) {
   }
 }
 
+TEST_F(MinutesBudget, AShortTimeHasFewerChecks) {
+  const Budget brief = budget_within(least_minutes(refusal_of_two_minutes()), problem_, pace_, 1);
+  const Budget ample = budget_within(200, problem_, pace_, 1);
+  EXPECT_EQ(brief.check_rounds, 2);
+  EXPECT_EQ(brief.verification_repeats, 4);
+  EXPECT_EQ(ample.check_rounds, 3);
+  EXPECT_GT(ample.verification_repeats, brief.verification_repeats);
+}
+
 TEST_F(MinutesBudget, ChecksGetNoMoreThanHalf) {
   const Budget budget = budget_within(60, problem_, pace_, 1);
   double checks_s = 0;
@@ -71,11 +90,10 @@ TEST_F(MinutesBudget, ChecksGetNoMoreThanHalf) {
 }
 
 TEST_F(MinutesBudget, RefusesLessThanTheLeastFitAndSaysWhatItNeeds) {
-  const std::string error = error_of([&] { budget_within(2, problem_, pace_, 1); });
+  const std::string error = refusal_of_two_minutes();
   EXPECT_THAT(error, AllOf(HasSubstr("the least fit, its checks included, takes"),
                            HasSubstr("a run of drop takes 60 s"), HasSubstr("--jobs")));
-  const std::string option = "--minutes ";
-  const double needed = std::stod(error.substr(error.find(option) + option.size()));
+  const double needed = least_minutes(error);
   EXPECT_GT(needed, 2);
   EXPECT_LE(foreseen_minutes(budget_within(needed, problem_, pace_, 1)), needed);
   EXPECT_THROW(budget_within(.8 * needed, problem_, pace_, 1), base::InputError);
@@ -94,6 +112,7 @@ TEST_F(MinutesBudget, IsKeptInTheFolderAndNotTimedAgain) {
   EXPECT_EQ(read.name, "60min");
   EXPECT_EQ(read.settings.budget_s, study.record.budget.settings.budget_s);
   EXPECT_EQ(read.verification_repeats, study.record.budget.verification_repeats);
+  EXPECT_EQ(read.check_rounds, study.record.budget.check_rounds);
   study.record.budget = budget_named("quick");
   study.problem.problem = problem_;
   study.threads = 1;
