@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kHour_s = 3600;
 
-/// A measured mean where it is plausible, in the units of its surrogate.
+/// A measured mean at the plausible sets, in the units of its surrogate.
 struct Seen {
   Eigen::VectorXd expected;  ///< at each of the plausible sets
   double bench2 = 0;         ///< variance of the measured mean by the scatter of its readings
-  double lasting2 = 0;       ///< and by what they have in common, and the model's
+  double lasting2 = 0;       ///< and from their common part and the model's error
   double surrogate2 = 0;     ///< of what the surrogate expects
 };
 
@@ -39,7 +39,7 @@ Seen seen(const Solution& solution, std::size_t observable) {
   return seen;
 }
 
-/// Columns less their means.
+/// Subtracts the column means.
 Eigen::MatrixXd centred(Eigen::MatrixXd columns) {
   columns.rowwise() -= columns.colwise().mean().eval();
   return columns;
@@ -55,9 +55,9 @@ Eigen::MatrixXd columns_of(const std::vector<Point>& points) {
   return centred(std::move(columns));
 }
 
-/// The parts of the parameters' standard deviations that are left when the variance of every
-/// observable falls from what it is to bench2 * `bench` + lasting2 + surrogate2 * `surrogate`:
-/// as if it were measured once more, with the variance that makes up the difference.
+/// Fraction of each parameter's standard deviation that remains when the variance of every
+/// observable falls from its present value to bench2 * `bench` + lasting2 + surrogate2 *
+/// `surrogate`: as if it were measured once more, with the variance that makes up the difference.
 std::vector<double> left_over(const Eigen::MatrixXd& parameters, const std::vector<Seen>& all,
                               double bench, double surrogate) {
   std::vector<double> more;
@@ -114,8 +114,8 @@ std::vector<double> narrowing_by_readings(const Solution& solution, std::size_t 
 
 namespace {
 
-constexpr double kReadings = 10;        // taken of what is advised
-constexpr std::size_t kFewestRuns = 8;  // runs to learn a reading from
+constexpr double kReadings = 10;        // number assumed for advised measurements
+constexpr std::size_t kFewestRuns = 8;  // required to learn a reading
 
 bool is_measured(const Problem& problem, const std::string& experiment) {
   return std::any_of(problem.observables.begin(), problem.observables.end(),
@@ -139,7 +139,7 @@ bool depends(const Experiment& experiment, std::size_t parameter) {
          experiment.parameters.end();
 }
 
-/// `left`: of its standard deviation.
+/// `left`: fraction of its standard deviation that remains.
 std::string worth_of(const std::string& what, double left) {
   return fmt::format(
       "{} would reduce the uncertainty of this coefficient to about {:.0f} % of its present value",
@@ -198,7 +198,7 @@ void Advisor::learn_unmeasured(const Experiment& experiment, const std::string& 
 }
 
 double Advisor::fraction_explained(const Measurement& measurement, std::size_t parameter) const {
-  // Linear Bayes: measuring r with error variance v takes cov(r, x)^2 / (var r + v) from var x.
+  // Linear Bayes: measuring r with error variance v removes cov(r, x)^2 / (var r + v) from var x.
   // Goldstein and Wooff (2007), Bayes Linear Statistics.
   const std::vector<Point>& points = solution_.sets.points;
   const auto count = static_cast<double>(points.size());

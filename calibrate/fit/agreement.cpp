@@ -10,11 +10,11 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kOneSided = .95;  // of each of the two tests of equivalence
-constexpr double kPower = .8;      // four of five
-constexpr double kMaxRuns = 1e5;   // more is never
+constexpr double kPower = .8;      // four of five checks
+constexpr double kMaxRuns = 1e5;   // a larger number counts as none
 constexpr double kSmallestChance = 1e-300;
 constexpr double kAngle_deg = 2;
-constexpr double kFraction = .1;  // of a reading, and of the range that it may have
+constexpr double kFraction = .1;  // of a reading, and of its possible range
 
 double normal_quantile(double probability) {
   return base::student_t_quantile(probability, base::kManyDf);
@@ -58,7 +58,7 @@ double detectable_difference(const UncertainMean& difference, double level) {
 
 namespace {
 
-/// How large the variance of a difference may be so that four of five checks decide.
+/// Largest variance of a difference at which four of five checks decide.
 double deciding_variance(const UncertainMean& difference, double tolerance, double level) {
   const double off = std::abs(difference.value);
   const bool may_agree = off < tolerance;
@@ -68,7 +68,7 @@ double deciding_variance(const UncertainMean& difference, double tolerance, doub
   return allowed * allowed;
 }
 
-/// How many of what has this variance each bring their mean's to `allowed`; more than there are.
+/// How many of them reduce the variance of their mean to `allowed`; more than the present number.
 std::optional<int> number_for(double variance, double allowed, int now) {
   if (!(allowed > 0) || !(variance > 0) || variance / allowed > kMaxRuns) return std::nullopt;
   return std::max(static_cast<int>(std::ceil(variance / allowed)), now + 1);

@@ -7,12 +7,12 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kMultiple = 2;      // and the same below: half
-constexpr double kWorthSaying = .1;  // change of an interval's width, as a part of it
+constexpr double kMultiple = 2;      // and its inverse: half
+constexpr double kWorthSaying = .1;  // relative change of an interval's width
 
 double width_of(const Interval& interval) { return interval.high - interval.low; }
 
-/// Coefficients of the same runs where all scatters that were assumed are so many times as large.
+/// Coefficients refitted to the same runs with all assumed scatters scaled by `multiple`.
 std::vector<MovedCoefficient> with_scatter(const Problem& problem, const std::vector<Run>& runs,
                                            const JointFit& fit, double multiple) {
   Problem other = problem;
@@ -29,7 +29,7 @@ std::vector<MovedCoefficient> with_scatter(const Problem& problem, const std::ve
   return coefficients;
 }
 
-/// Of the experiments with an assumed scatter, those that the parameter has an effect on.
+/// Experiments with an assumed scatter that depend on the parameter.
 std::vector<std::string> told_by_assumed(const Problem& problem, std::size_t parameter) {
   std::vector<std::string> names;
   for (const Observable& observable : problem.observables) {

@@ -9,29 +9,29 @@
 
 namespace repose::calibrate {
 
-/// A measured mean whose scatter nobody measured, and the one that the fit took in its place.
+/// A measured mean whose scatter was not measured, and the scatter that the fit assumed instead.
 struct AssumedScatter {
   std::string observable;
   double fraction = 0;  ///< standard deviation of single readings over |mean|
 };
 
-/// A coefficient, and what it would be if readings scattered otherwise than was assumed.
+/// A coefficient, and what it would be if the readings scattered differently than assumed.
 struct ScatterDependence {
   std::string name;
-  std::vector<std::string> rests_on;  ///< observables whose assumed scatter moves it; or none
+  std::vector<std::string> rests_on;  ///< observables whose assumed scatter shifts it, if any
   MovedCoefficient half;              ///< with half the assumed standard deviations
   MovedCoefficient twice;             ///< with twice
 };
 
-/// What verdicts rest on where no scatter was measured.
+/// What verdicts depend on where no scatter was measured.
 struct AssumedScatters {
-  std::vector<AssumedScatter> readings;         ///< none: all were measured
+  std::vector<AssumedScatter> readings;         ///< empty: all were measured
   std::vector<ScatterDependence> coefficients;  ///< in the order of Problem::parameters
 };
 
-/// The runs of `fit` fitted again with half and with twice every scatter that it assumed; half is
-/// no less than what chance does in the simulation. What and why: THEORY.md, "An assumed scatter".
-/// Proved by AssumedScatter.* in tests/calibrate.
+/// Refits the runs of `fit` with half and with twice every assumed scatter; half is never less than
+/// the scatter by chance in the simulation. Reasons: THEORY.md, "An assumed scatter". Proved by
+/// AssumedScatter.* in tests/calibrate.
 AssumedScatters assumed_scatters(const Problem& problem, const std::vector<Run>& runs,
                                  const JointFit& fit);
 

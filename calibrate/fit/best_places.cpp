@@ -8,15 +8,15 @@ namespace repose::calibrate {
 
 namespace {
 
-/// What is left unknown of one surrogate at the candidates, and what each run that could be made
-/// would tell of it: a full one at each, and after these coarse ones where there are any.
+/// The remaining uncertainty of one surrogate at the candidates, and what each possible run would
+/// reduce it by: a full one at each, followed by coarse ones if there are any.
 struct Unknown {
-  Eigen::MatrixXd covariance;  ///< of what the runs expect
+  Eigen::MatrixXd covariance;  ///< of the runs' expected values
   Eigen::ArrayXd noise2;       ///< of each run
   Eigen::Index candidates = 0;
   double weight = 1;
 
-  /// How much variance each run would take from all candidates together.
+  /// How much variance each run would remove from all candidates together.
   Eigen::VectorXd gains() const {
     return weight * covariance.topRows(candidates).colwise().squaredNorm().transpose().array() /
            (covariance.diagonal().array() + noise2 + 1e-300);
@@ -30,7 +30,7 @@ struct Unknown {
   double mean_variance() const { return weight * covariance.diagonal().head(candidates).mean(); }
 };
 
-/// `kinds`: of the runs there may be at each candidate.
+/// `kinds`: of the possible runs at each candidate.
 std::vector<Unknown> unknowns_of(const std::vector<Surrogate>& surrogates,
                                  const std::vector<double>& weights,
                                  const std::vector<Point>& candidates,

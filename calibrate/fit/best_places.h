@@ -10,28 +10,27 @@
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/surrogate.h"
 
-/// Where a next run tells most.
+/// The most informative places for further runs.
 namespace repose::calibrate {
 
-/// Which of the `candidates` to run next, `count` of them, some perhaps twice.
+/// Selects which `count` of the `candidates` to run next; some may be selected twice.
 ///
-/// One by one, each time the place whose run would lower the surrogates' variances over all
-/// candidates most, each surrogate's in units of `weights`: Cohn (1996), Neural Networks 9, 1071;
-/// for Gaussian processes Seo, Wallat, Graepel, Obermayer (2000). A run without chance is never
-/// repeated. Proved by BestPlaces.* in tests/calibrate.
-/// @param enough  fewer are chosen where after these no surrogate's mean variance is above
-/// @param accepts  asked of each before it is chosen; one that is not accepted is passed over from
-///   then on. None: all are
+/// Greedy: each time the place whose run would reduce the surrogates' variances over all candidates
+/// most, each surrogate weighted by `weights`: Cohn (1996), Neural Networks 9, 1071; for Gaussian
+/// processes Seo, Wallat, Graepel, Obermayer (2000). A deterministic run is never repeated. Proved
+/// by BestPlaces.* in tests/calibrate.
+/// @param enough  stops early once no surrogate's mean variance is above this
+/// @param accepts  called before a place is selected; if false, it is skipped from then on
 std::vector<std::size_t> best_places(const std::vector<Surrogate>& surrogates,
                                      const std::vector<double>& weights,
                                      const std::vector<Point>& candidates, std::size_t count,
                                      double enough = 0,
                                      const std::function<bool(std::size_t)>& accepts = {});
 
-/// A surrogate's mean variance at the plausible sets, in that of the measured mean, from which on
-/// runs are worth their while: it adds 3 % to sigma.
+/// A surrogate's mean variance at the plausible sets, relative to that of the measured mean, above
+/// which runs are worthwhile: it adds 3 % to sigma.
 inline constexpr double kKnownWell = .06;
-inline constexpr int kSpreadEvery = 8;  ///< one of so many runs looks elsewhere
+inline constexpr int kSpreadEvery = 8;  ///< one in this many runs explores elsewhere
 
 /// A run to be made.
 struct ChosenRun {
@@ -39,15 +38,15 @@ struct ChosenRun {
   RunKind kind = RunKind::full;
 };
 
-/// What a run of an experiment costs, s.
+/// Cost of one run of an experiment, s.
 struct RunCosts {
   double full_s = 0;
   double coarse_s = 0;
 };
 
-/// As best_places(), of an experiment that has coarse runs, too: each time the run, full or coarse,
-/// that lowers the variances of full ones most for what it costs, until `seconds` are spent. The
-/// last may take longer, where `most_seconds` allow it.
+/// As best_places(), for an experiment that also has coarse runs: each time the run, full or
+/// coarse, that reduces the variances of full ones most for its cost, until `seconds` are spent.
+/// The last may take longer, up to `most_seconds`.
 std::vector<ChosenRun> best_runs(const std::vector<Surrogate>& surrogates,
                                  const std::vector<double>& weights,
                                  const std::vector<Point>& candidates, const RunCosts& costs,
@@ -56,7 +55,7 @@ std::vector<ChosenRun> best_runs(const std::vector<Surrogate>& surrogates,
 /// That mean variance.
 double unknown_fraction(const Misfit& misfit, const PosteriorSamples& sets, std::size_t observable);
 
-/// Places that a next run may be at, where sets of coefficients are plausible.
+/// Places for the next runs, based on the plausible sets of coefficients.
 std::vector<Point> candidate_places(const PosteriorSamples& sets);
 
 }  // namespace repose::calibrate

@@ -15,7 +15,7 @@ int least_jobs(const Experiment& experiment) {
   return 2 * static_cast<int>(experiment.parameters.size()) + 2;
 }
 
-/// How many runs of each experiment the seconds buy, in proportion to weight / root of cost.
+/// How many runs of each experiment the seconds buy, in proportion to weight / sqrt(cost).
 std::vector<double> bought(const std::vector<Experiment>& experiments,
                            const std::vector<double>& weights, double seconds) {
   double sum = 0;
@@ -61,7 +61,7 @@ std::vector<int> first_round_jobs(const Problem& problem) {
   }
   const std::vector<double> counts =
       bought(experiments, weights, kFirstFraction * problem.settings.budget_s);
-  // What is wanted beyond the least, cut down to what both limits leave.
+  // What is wanted beyond the minimum, cut down to what both limits leave.
   std::vector<double> extra;
   double extra_jobs = 0;
   double extra_s = 0;
@@ -96,7 +96,7 @@ std::vector<int> round_jobs(const Problem& problem, const std::vector<double>& n
     if (need[i] <= 0) continue;
     const int most = kMaxPerDimension * static_cast<int>(experiments[i].parameters.size());
     const int affordable = static_cast<int>(std::min(seconds / usual_run_s(experiments[i]), 1e6));
-    // Wanted at all is one run at least.
+    // If wanted at all, at least one run.
     const int wanted = static_cast<int>(std::clamp(std::round(counts[i]), 1., 1e6));
     jobs[i] = std::max(0, std::min({wanted, most, affordable, count}));
     seconds -= jobs[i] * usual_run_s(experiments[i]);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRoot5 = 2.2360679774997896964;
 
-constexpr double kLevel2 = 4;  // the mean of the data is no surprise within two of their sd's
+constexpr double kLevel2 = 4;  // prior variance of the mean: an sd of two of the data's
 
 /// `decay` is exp(-sqrt5 r).
 double matern(double r, double decay) { return (1 + kRoot5 * r + 5. / 3 * r * r) * decay; }

@@ -8,17 +8,17 @@
 
 namespace repose::calibrate {
 
-/// How values at two points of the unit box vary together, in variances of the data.
+/// Covariance of values at two points of the unit box, in variances of the data.
 ///
 /// k(x, x') = signal^2 M(r) + trend^2 s.s' + level^2, with s = (x - 1/2) / length, r = |s - s'|,
 /// M(r) = (1 + sqrt5 r + 5/3 r^2) exp(-sqrt5 r): Matern 5/2, Rasmussen and Williams (2006) eq.
-/// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. On the runs' diagonal is noise^2 besides,
-/// by the number of runs that a value is the mean of, and a value's own variance, which is known.
-/// Two coarse values have shift^2 + drift^2 M(r) besides.
+/// 4.17, and their linear covariance, sec. 4.2.2 and 2.7. The diagonal for runs also has noise^2,
+/// divided by the number of runs averaged, and a value's own known variance. Two coarse values also
+/// share shift^2 + drift^2 M(r).
 class Covariance {
  public:
-  /// @param counts  of runs that each value is the mean of; empty: of one
-  /// @param own_variances  variance of each value beside the noise; empty: none has any
+  /// @param counts  number of runs averaged in each value; empty: one each
+  /// @param own_variances  variance of each value in addition to the noise; empty: none has any
   /// @param coarse  1 for each value that is coarse, else 0; empty: none is
   explicit Covariance(const Hyperparameters& hyper, const Eigen::ArrayXd& counts = {},
                       const Eigen::ArrayXd& own_variances = {}, const Eigen::ArrayXd& coarse = {});
@@ -27,17 +27,17 @@ class Covariance {
   Eigen::MatrixXd of_runs(const Eigen::MatrixXd& x) const;
   /// (x - 1/2) / length, row by row.
   Eigen::MatrixXd scaled(const Eigen::MatrixXd& x) const;
-  /// Between one place and all runs, whose rows are scaled() already; `slopes` (a row per run) with
-  /// the place's coordinates.
+  /// Between one place and all runs, whose rows are already scaled(). `slopes` (a row per run):
+  /// derivatives with respect to the place's coordinates.
   void with_runs(const Eigen::MatrixXd& scaled_runs,
                  const Eigen::Ref<const Eigen::RowVectorXd>& here, Eigen::VectorXd& k,
                  Eigen::MatrixXd* slopes) const;
-  /// What coarse runs have beside that with a coarse value at the place; 0 for the others.
+  /// Additional covariance of coarse runs with a coarse value at the place; 0 for the others.
   Eigen::VectorXd shifts_with_runs(const Eigen::MatrixXd& scaled_runs,
                                    const Eigen::Ref<const Eigen::RowVectorXd>& here) const;
-  /// Of the shift of a coarse value alone.
+  /// Variance of a coarse value's shift alone.
   double own_shift() const { return shift2_ + drift2_; }
-  /// The same as this for other places than the runs'.
+  /// The same covariance for places other than the runs'.
   Covariance of_places(const Eigen::ArrayXd& coarse) const;
   double own(const Eigen::Ref<const Eigen::RowVectorXd>& here) const;
   Eigen::RowVectorXd own_gradient(const Eigen::Ref<const Eigen::RowVectorXd>& here) const;
@@ -47,7 +47,7 @@ class Covariance {
 
  private:
   bool is_coarse(Eigen::Index run) const { return coarse_.size() > 0 && coarse_(run) > 0; }
-  /// Variance of a run's own error by chance.
+  /// Variance of a run's random error.
   double noise2(Eigen::Index run) const {
     return (is_coarse(run) ? coarse_noise2_ : noise2_) / (counts_.size() > 0 ? counts_(run) : 1);
   }

@@ -7,14 +7,14 @@
 
 namespace repose::calibrate {
 
-/// Thrown by a fit that was told to stop.
+/// Thrown by a fit that was interrupted.
 class FitInterrupted : public std::runtime_error {
  public:
   FitInterrupted() : std::runtime_error("the fit was interrupted") {}
 };
 
-/// As long as it is there, what fits and plans on this thread throws FitInterrupted soon after
-/// `is_interrupted` became true: between two steps of a search, which takes milliseconds.
+/// While it exists, fits and plans on this thread throw FitInterrupted soon after `is_interrupted`
+/// becomes true: between two steps of a search, which take milliseconds.
 class FitWatch {
  public:
   explicit FitWatch(const std::atomic<bool>& is_interrupted);
@@ -33,7 +33,7 @@ bool is_fit_interrupted();
 /// @throws FitInterrupted
 void stop_if_interrupted();
 
-/// Makes a search by Ceres give up where the fit is interrupted.
+/// Makes a Ceres search abort when the fit is interrupted.
 class SearchCallback : public ceres::IterationCallback {
  public:
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {

@@ -40,13 +40,13 @@ struct LogNormal {
   double log_sd = 1;
 };
 
-/// Of shift, drift and noise of coarse values: 95 % within .04 ... 2 of the data's sd, the first
+/// Shift, drift and noise of coarse values: 95 % within .04 ... 2 of the data's sd for the first
 /// two, and .38 ... 2.7 of the full ones' noise.
 constexpr std::array<LogNormal, 3> kCoarsePriors = {
     {{.log_median = -1.2, .log_sd = 1}, {.log_median = -1.2, .log_sd = 1}, {0, .5}}};
 
-/// Logarithms: lengths, signal, trend, noise, and where values are coarse shift, drift and noise
-/// of these.
+/// Logarithms of lengths, signal, trend and noise, and, if there are coarse values, of their shift,
+/// drift and noise.
 Hyperparameters from_logs(const double* logs, Eigen::Index dimensions, bool has_coarse) {
   Hyperparameters hyper;
   for (Eigen::Index i = 0; i < dimensions; ++i) hyper.length.push_back(std::exp(logs[i]));
@@ -82,7 +82,7 @@ Eigen::ArrayXd as_array(const std::vector<double>& values) {
 class MinusLogPosterior : public ceres::FirstOrderFunction {
  public:
   /// @param means  in the unit of `y`
-  /// @param coarse  as of Covariance
+  /// @param coarse  as for Covariance
   MinusLogPosterior(const Eigen::MatrixXd& x, const Eigen::VectorXd& y, bool is_stochastic,
                     const MeansOfRuns& means, const Eigen::ArrayXd& coarse)
       : x_(x),
@@ -116,7 +116,7 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
           .5 * covariance.weighted_gradient(x_, weight);
     }
     if (df_ > 0) {
-      // Of the runs about their means: squares ~ noise^2 chi-square(df).
+      // Runs about their means: squares ~ noise^2 chi-square(df).
       const double ratio = squares_ / (hyper.noise * hyper.noise);
       *cost += df_ * std::log(hyper.noise) + .5 * ratio;
       if (gradient != nullptr) gradient[noise_] += df_ - ratio;
@@ -138,7 +138,7 @@ class MinusLogPosterior : public ceres::FirstOrderFunction {
   double squares_;
   double df_;
   std::vector<LogNormal> priors_;
-  std::size_t noise_ = 0;  ///< its place among the logarithms
+  std::size_t noise_ = 0;  ///< its index among the logarithms
 };
 
 std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool is_stochastic, int count) {
@@ -154,9 +154,9 @@ std::vector<Hyperparameters> own_starts(Eigen::Index dimensions, bool is_stochas
 /// The most probable hyperparameters of standardised values `y` at the rows of `x`.
 ///
 /// Marginal likelihood (Rasmussen and Williams 2006, eq. 2.30, gradient 5.9) times log-normal
-/// priors, of median 1 and 95 % between .14 and 7 for lengths, signal and trend; the noise has
-/// median .1 (.005 ... 2), without chance .001 (.0001 ... .007); kCoarsePriors. Minimised by L-BFGS
-/// from fixed starts.
+/// priors, with median 1 and 95 % between .14 and 7 for lengths, signal and trend; the noise has
+/// median .1 (.005 ... 2), if deterministic .001 (.0001 ... .007); kCoarsePriors. Minimised by
+/// L-BFGS from fixed starts.
 SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::VectorXd& y,
                                     bool is_stochastic, const std::optional<Hyperparameters>& start,
                                     int starts, const MeansOfRuns& means,
@@ -194,7 +194,7 @@ SearchResult search_hyperparameters(const Eigen::MatrixXd& x, const Eigen::Vecto
 
 namespace {
 
-/// As Covariance takes it; empty where all are full.
+/// As Covariance expects it; empty if all are full.
 Eigen::ArrayXd coarse_of(const std::vector<RunKind>& kinds) {
   if (std::ranges::find(kinds, RunKind::coarse) == kinds.end()) return {};
   Eigen::ArrayXd coarse(static_cast<Eigen::Index>(kinds.size()));
@@ -212,7 +212,7 @@ struct GaussianProcess::State {
   double scale = 1;
   Hyperparameters hyper;
   double log_posterior = 0;
-  Eigen::LLT<Eigen::MatrixXd> root;  ///< of K: small variances survive in it, not in K^-1
+  Eigen::LLT<Eigen::MatrixXd> root;  ///< of K: preserves small variances that K^-1 would lose
   Eigen::VectorXd alpha;             ///< K^-1 y
 
   Covariance covariance{hyper};

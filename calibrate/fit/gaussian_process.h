@@ -13,19 +13,19 @@ namespace repose::calibrate {
 struct Expectation {
   double mean = 0;
   double variance = 0;
-  Point mean_gradient;  ///< empty unless asked for
+  Point mean_gradient;  ///< empty unless requested
   Point variance_gradient;
 };
 
-/// What values tell of the noise that are means of several runs at their place, each: such a mean
-/// has the noise's variance by its count, and the runs' squares about it have the distribution of
-/// the noise's variance times a chi-square.
+/// What values that are means of several runs at one place say about the noise: such a mean has the
+/// noise variance divided by its count, and the sum of squares of the runs about it is the noise
+/// variance times a chi-square.
 struct MeansOfRuns {
   std::vector<double> counts;  ///< of each value; empty: all are single runs
-  double squares = 0;          ///< of runs about the means of their places, where these are told
+  double squares = 0;          ///< of runs about the means of their places, where known
   double df = 0;               ///< their degrees of freedom
-  /// Variance that each value has beside the noise, as of a reading that is uncertain by itself;
-  /// empty: none has.
+  /// Variance that each value has in addition to the noise, e.g. of a reading that is itself
+  /// uncertain; empty: none has.
   std::vector<double> own_variances = {};
 };
 
@@ -35,24 +35,24 @@ struct MeansOfRuns {
 /// Learning: prediction eqs. 2.25, 2.26; marginal likelihood 2.30; its gradient 5.9; Matern
 /// covariance 4.17; leave-one-out 5.12. Proved by GaussianProcess.* in tests/calibrate.
 ///
-/// Values may be coarse: of the function plus another one, which is a second process, independent
-/// and of the same length scales, and with a noise of their own. Kennedy and O'Hagan (2000),
-/// Biometrika 87, 1, their eq. 1 with rho = 1 and the levels exchanged. What is expected is the
-/// function itself. THEORY.md, "Coarse runs"; proved by CoarseValues.* in tests/calibrate.
+/// Values may be coarse: the function plus a second, independent process of the same length scales,
+/// with their own noise. Kennedy and O'Hagan (2000), Biometrika 87, 1, their eq. 1 with rho = 1 and
+/// the levels exchanged. Predictions are of the function itself. THEORY.md, "Coarse runs"; proved
+/// by CoarseValues.* in tests/calibrate.
 class GaussianProcess {
  public:
   /// Fits the hyperparameters to `y` at `x` (at least two, not all alike). `is_stochastic`: values
-  /// at one point differ. `start` is where the search begins besides its own starts.
-  /// `kinds`: of each value; empty: all are full.
+  /// at one point differ. `start`: an additional start of the search. `kinds`: of each value;
+  /// empty: all are full.
   GaussianProcess(const std::vector<Point>& x, const std::vector<double>& y, bool is_stochastic,
                   const std::optional<Hyperparameters>& start, int starts,
                   const MeansOfRuns& means = {}, const std::vector<RunKind>& kinds = {});
 
   Expectation at(const Point& x, bool with_gradients) const;
-  /// By how much coarse values are expected to be off at a point, and the variance of that.
+  /// How much coarse values are expected to be off at a point, and the variance of that.
   Expectation coarse_shift(const Point& x) const;
-  /// Covariances of what is expected at some points, row by row; of coarse values where
-  /// `kinds`, one for each, says so.
+  /// Covariances of the expected values at some points, row by row; of coarse values where `kinds`,
+  /// one for each, says so.
   std::vector<double> covariance(const std::vector<Point>& points,
                                  const std::vector<RunKind>& kinds = {}) const;
   double noise_sd(RunKind kind = RunKind::full) const;  ///< of single runs

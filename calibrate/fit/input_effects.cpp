@@ -16,7 +16,7 @@ namespace {
 constexpr double kInputsOfBudget = .2;
 constexpr int kFewestPairs = 5;
 
-/// An input in one experiment, and the check's jobs that it is simulated with.
+/// An input in one experiment, with the check's jobs repeated with it changed.
 struct Variation {
   std::size_t input = 0;
   std::vector<Job> jobs;
@@ -48,7 +48,7 @@ std::vector<Variation> variations_of(const Problem& problem, const std::vector<J
   return variations;
 }
 
-/// As many of each as there is time for.
+/// As many repeats of each as there is time for.
 int pairs_within(double seconds, const std::vector<Variation>& variations) {
   int pairs = kFewestPairs;
   for (const Variation& variation : variations) {
@@ -63,7 +63,7 @@ int pairs_within(double seconds, const std::vector<Variation>& variations) {
   return pairs;
 }
 
-/// None where a run has no such reading.
+/// NaN if a run has no such reading.
 double reading_of(const std::vector<Run>& runs, const Job& job, const std::string& name) {
   const auto run = std::ranges::find(runs, job, &Run::job);
   if (run == runs.end() || !run->failure.empty()) return kNone;
@@ -71,7 +71,7 @@ double reading_of(const std::vector<Run>& runs, const Job& job, const std::strin
   return found == run->readings.end() ? kNone : found->second;
 }
 
-/// The mean of the differences between runs with one seed.
+/// The mean difference between runs with the same seed.
 InputChange change_of(const Observable& observable, const FixedInput& input, bool is_stochastic,
                       const std::vector<Run>& checks, const std::vector<Run>& varied) {
   CheckSample differences;
@@ -92,7 +92,7 @@ InputChange change_of(const Observable& observable, const FixedInput& input, boo
   return change;
 }
 
-/// Where the fit goes as measured means change.
+/// How the fit moves when measured means change.
 class MovedFit {
  public:
   MovedFit(const Problem& problem, const JointFit& fit, const std::vector<Run>& runs)
@@ -105,7 +105,7 @@ class MovedFit {
     start_ = minimum_from(misfit_, start_).point;
   }
 
-  /// The simulation reads so much more: as if the bench had read so much less.
+  /// A simulation that reads more is equivalent to a bench that reads less by the same amount.
   std::vector<double> moved_by(const std::vector<double>& changes) const {
     std::vector<double> means = means_;
     for (std::size_t i = 0; i < means.size(); ++i) {
@@ -128,7 +128,7 @@ class MovedFit {
   Point start_;
 };
 
-/// With their uncertainty by that of each reading's change, one after the other (JCGM 100:2008,
+/// With uncertainties propagated from each reading's change, one after the other (JCGM 100:2008,
 /// GUM, 5.1.3 note 2).
 std::vector<InputChange> coefficients_moved(const Problem& problem, const MovedFit& fit,
                                             const std::vector<InputChange>& readings) {

@@ -18,15 +18,15 @@ double Misfit::interval_limit(const Point& best, std::size_t coordinate) const {
   const Linearised fit = linearised(best, is_free);
   const NormalEquations equations = normal_equations(best, is_free, fit);
   const Eigen::Index j = place_of(coordinate);
-  // All others are somewhere within their bounds: a uniform distribution has 1/12 of the square of
-  // its width for variance (GUM 4.3.7).
+  // All others lie somewhere within their bounds: a uniform distribution has a variance of 1/12 of
+  // the square of its width (GUM 4.3.7).
   Eigen::MatrixXd known =
       equations.held + 12 * Eigen::MatrixXd::Identity(equations.held.rows(), equations.held.cols());
   known(j, j) = equations.held(j, j);
   const Eigen::LLT<Eigen::MatrixXd> inverse(equations.jacobian.transpose() * equations.jacobian +
                                             known);
   const Eigen::MatrixXd moved = inverse.solve(equations.jacobian.transpose());
-  // How the coordinate follows each reading, and what is left of a reading when all were followed.
+  // How the coordinate follows each reading, and what remains of a reading after the fit.
   const Eigen::VectorXd follows = (moved * equations.whitening).row(j);
   const Eigen::MatrixXd left =
       equations.whitening.transpose() *
@@ -35,7 +35,7 @@ double Misfit::interval_limit(const Point& best, std::size_t coordinate) const {
   const Eigen::VectorXd column = inverse.solve(unit);
   const double widened = column(j);
   const double variance = follows.dot(fit.not_widened * follows) + column.dot(known * column);
-  double spread = 0;  // of the variance's estimate: half its variance
+  double spread = 0;  // of the variance estimate: half its variance
   double by_weights = 0;
   double fewest = base::kManyDf;
   for (std::size_t i = 0; i < targets_.size(); ++i) {

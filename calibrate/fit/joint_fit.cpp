@@ -103,7 +103,7 @@ std::vector<ResponseSurface> response_surfaces(const Problem& problem, const Sol
   return surfaces;
 }
 
-constexpr double kReaches = .01;  // of the box, from a bound
+constexpr double kReaches = .01;  // fraction of the box, from a bound
 constexpr double kNearlyAll = .9;
 
 Verdict verdict_of(const Parameter& parameter, const Profile& profile,
@@ -135,7 +135,7 @@ FittedParameter parameter_of(const Problem& problem, const Solution& solution, s
   return fitted;
 }
 
-/// Work of one core, s.
+/// Core time, s.
 double work_of(const Problem& problem, const std::vector<Run>& runs) {
   double seconds = 0;
   for (const Run& run : runs) {
@@ -144,7 +144,7 @@ double work_of(const Problem& problem, const std::vector<Run>& runs) {
   return seconds;
 }
 
-/// Adds the lines of those of the experiments that are not among the additions yet.
+/// Adds the study lines of the experiments that are not among the additions yet.
 void add_lines(const Problem& problem, const std::vector<std::string>& experiments,
                std::vector<StudyAddition>& additions) {
   for (const std::string& name : experiments) {
@@ -257,7 +257,7 @@ std::vector<std::vector<double>> correlation_of(const std::vector<Point>& points
   return correlation;
 }
 
-/// Evenly over all of them: neighbours may be copies of one that was resampled.
+/// Evenly spaced over all of them: neighbours may be copies of one that was resampled.
 std::vector<std::vector<double>> drawn_from(const Problem& problem,
                                             const std::vector<Point>& points) {
   std::vector<std::vector<double>> drawn;

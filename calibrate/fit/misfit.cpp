@@ -32,7 +32,7 @@ Matrix covariance_of(const std::vector<CorrelatedPart>& parts, const PartCorrela
   return covariance;
 }
 
-/// Of the covariance, with one coordinate.
+/// Derivative of the covariance with respect to one coordinate.
 Matrix slope_of(const std::vector<CorrelatedPart>& parts, const PartCorrelation& correlation,
                 std::size_t coordinate) {
   Matrix slope = Matrix::Zero(index(parts.size()), index(parts.size()));
@@ -85,7 +85,7 @@ std::vector<std::vector<double>> part_of(const std::vector<std::vector<double>>&
 
 Residuals made_independent(const std::vector<CorrelatedPart>& parts,
                            const PartCorrelation& correlation, bool with_jacobian) {
-  // What a search asks for most often, without a matrix.
+  // The most frequent case in a search, without a matrix.
   if (parts.size() == 1 && !with_jacobian) {
     const CorrelatedPart& alone = parts.front();
     return {{alone.difference / std::sqrt(covariance_of(parts, correlation, 0, 0))}, {}};
@@ -160,13 +160,13 @@ Risk FailureRisk::at(const Point& point) const {
 
 namespace {
 
-constexpr double kRobust = 2;     // differences beyond so many sigma count less, when asked for
-constexpr double kPull = .1;      // per box width: to the middle among equals
-constexpr double kDistrust = .1;  // to where the surrogate is sure, among equals
-constexpr double kFailure = 4;    // a half chance of failure alone is beyond 3.84
-constexpr std::size_t kFewestToLearn = 3;  // readings to learn from
+constexpr double kRobust = 2;     // larger differences, in sigma, count less if requested
+constexpr double kPull = .1;      // per box width: towards the middle, to break ties
+constexpr double kDistrust = .1;  // towards where the surrogate is certain, to break ties
+constexpr double kFailure = 4;    // makes a failure probability of one half alone exceed 3.84
+constexpr std::size_t kFewestToLearn = 3;  // readings required
 
-/// Cauchy's loss as a residual: its square is c^2 log(1 + z^2 / c^2). Returns its slope, too.
+/// Cauchy's loss as a residual: its square is c^2 log(1 + z^2 / c^2). Also returns its slope.
 std::pair<double, double> robust_residual(double z) {
   const double fraction = z * z / (kRobust * kRobust);
   const double value = std::copysign(kRobust * std::sqrt(std::log1p(fraction)), z);
@@ -180,8 +180,8 @@ double uncertainty_of_mean(const Observable& observable, double scatter_by_chanc
   return std::max(known, scatter_by_chance / std::sqrt(static_cast<double>(observable.n)));
 }
 
-/// The part of the variance of the bench's single readings that differences from run to run make
-/// up: what they share with other readings. Views of one heap, and an eye that reads, are of each.
+/// Fraction of the variance of the bench's single readings due to differences from run to run,
+/// which readings of one run share. Views of one heap, and reading by eye, vary independently.
 double explained_fraction(const Surrogate& surrogate, double w, double bench_variance) {
   const double run_sd = surrogate.warp().scatter(w);
   const double simulated = surrogate.training_set().readings_per_run * run_sd * run_sd;
@@ -230,7 +230,7 @@ Misfit::Misfit(const Problem& problem, const std::vector<Run>& runs,
                const std::optional<Misfit>& before, bool thorough)
     : parameters_(problem.parameters), robust_(problem.settings.robust) {
   base::Faults errors;
-  std::vector<double> explained;  // parts of the variances of measured means
+  std::vector<double> explained;  // fractions of the variances of measured means
   for (std::size_t i = 0; i < problem.observables.size(); ++i) {
     const Observable& observable = problem.observables[i];
     const TrainingSet training_set = training_set_of(
@@ -317,7 +317,7 @@ double Misfit::weight(std::size_t observable) const {
 
 double Misfit::chi2(const Point& point) const {
   const Residuals all = residuals(point, false);
-  // The small ones, two lots, come last.
+  // The two groups of small residuals come last.
   const std::size_t counted = all.values.size() - surrogates_.size() - parameters_.size();
   double sum = 0;
   for (std::size_t i = 0; i < counted; ++i) sum += all.values[i] * all.values[i];

@@ -22,23 +22,23 @@ struct CorrelatedPart {
   double difference = 0;
   double measured_sd = 0;  ///< of the measured mean
   double variance = 0;     ///< of what is expected
-  int readings = 1;        ///< behind the measured mean
-  Point gradient;          ///< of the difference; empty unless derivatives are wanted
+  int readings = 1;        ///< number of readings behind the measured mean
+  Point gradient;          ///< of the difference; empty unless derivatives are requested
   Point variance_gradient;
-  double model2 = 0;  ///< variance of what the model gets wrong, each reading by itself
+  double model2 = 0;  ///< variance of the model's error, independent for each reading
 };
 
-/// How the errors of such differences vary together, of each pair; 1 on the diagonals.
+/// Correlations of the errors of such differences, for each pair; 1 on the diagonals.
 struct PartCorrelation {
   std::vector<std::vector<double>> measured;  ///< of the measured means
-  std::vector<std::vector<double>> expected;  ///< of what is expected
+  std::vector<std::vector<double>> expected;  ///< of the expected values
 };
 
 /// L^-1 r for the differences r and the covariance L L^T = V of their errors: independent, of
-/// variance 1, and their squares sum up to r^T V^-1 r.
+/// variance 1; their squares add up to r^T V^-1 r.
 ///
-/// V_ij = rho_m,ij sqrt(m / M) s_i s_j + rho_e,ij sqrt(v_i v_j), and d_i^2 where i = j: m of the M
-/// readings of a bench are taken to be of the same grains or heaps, m and M being the smaller and
+/// V_ij = rho_m,ij sqrt(m / M) s_i s_j + rho_e,ij sqrt(v_i v_j), plus d_i^2 if i = j: m of the M
+/// readings of a bench are assumed to be of the same grains or heaps, m and M being the smaller and
 /// the larger of both counts.
 Residuals made_independent(const std::vector<CorrelatedPart>& parts,
                            const PartCorrelation& correlation, bool with_jacobian);
@@ -47,15 +47,15 @@ Residuals made_independent(const std::vector<CorrelatedPart>& parts,
 double covariance_of(const std::vector<CorrelatedPart>& parts, const PartCorrelation& correlation,
                      std::size_t one, std::size_t other);
 
-/// How much two means have in common of which one has more readings.
+/// Correlation of two means due to the readings they share, if one has more readings.
 double shared_readings(int one, int other);
 
-/// The rows and columns of `all` that are named.
+/// The rows and columns of `all` with these indices.
 std::vector<std::vector<double>> part_of(const std::vector<std::vector<double>>& all,
                                          const std::vector<std::size_t>& names);
 
 struct Risk {
-  double fraction = 0;  ///< of failures among the runs nearby, 0 ... 1
+  double fraction = 0;  ///< of failures among the nearby runs, 0 ... 1
   Point gradient;
 };
 
@@ -70,20 +70,20 @@ class FailureRisk {
 
   bool any() const { return attempts_.failures() > 0; }
   Risk at(const Point& point) const;
-  /// How much a run at one point tells of another: 1 at the same.
+  /// Kernel weight of a run at one point for another point: 1 at the same point.
   double nearness(const Point& one, const Point& other) const;
 
  private:
   Attempts attempts_;
 };
 
-/// How badly a set of parameters fits, from everything that is known.
+/// How badly a set of parameters fits, given everything that is known.
 ///
 /// Formulae and reasons: THEORY.md, "Misfit". Proved by Misfit.* in tests/calibrate.
 class Misfit {
  public:
-  /// Learns surrogates of all observables from `runs` (in_order). `before`: of fewer runs, to start
-  /// from. Throws base::InputError where an observable has too few readings.
+  /// Learns surrogates of all observables from `runs` (in_order). `before`: a misfit of fewer runs,
+  /// to start from. Throws base::InputError if an observable has too few readings.
   Misfit(const Problem& problem, const std::vector<Run>& runs, const std::optional<Misfit>& before,
          bool thorough);
 
@@ -92,45 +92,45 @@ class Misfit {
   /// See Surrogate::inflate_near().
   void inflate_near(const Point& point);
 
-  /// The same of other measured means, which are as uncertain.
+  /// The same with other measured means of the same uncertainty.
   Misfit measuring(const std::vector<double>& means) const;
 
-  /// Squared standardised differences, priors and risks of failure: what 3.84 is compared with.
+  /// Squared standardised differences, priors and risks of failure: the value compared with 3.84.
   double chi2(const Point& point) const;
   /// (simulated - measured) / sigma of one observable.
   double difference(std::size_t observable, const Point& point) const;
-  /// Squares of the surrogate's sd over the measured uncertainty: what more runs would tell.
+  /// Squared ratio of the surrogate's sd to the measured uncertainty: what more runs could reduce.
   double surrogate_variance_fraction(std::size_t observable, const Point& point) const;
   /// Standard uncertainty of an observable's measured mean, in its unit. A scatter that was not
-  /// measured is taken to be no less than what chance does to single readings in the simulation
-  /// there (Experiment::readings_per_run): a bench has the same chance, and more.
+  /// measured is assumed to be no less than that of single readings in the simulation there
+  /// (Experiment::readings_per_run): a bench has the same random variation, and more.
   double measured_uncertainty(std::size_t observable) const { return measured_[observable]; }
-  /// Of the observables, in what chance does to them together from run to run.
+  /// Correlations of the observables from run to run.
   const std::vector<std::vector<double>>& reading_correlation() const {
     return correlation_.expected;
   }
-  /// And in what it does to the means of the bench: that of runs, as far as the simulation explains
-  /// how they scatter.
+  /// Correlations of the bench's means: those of runs, as far as the simulation explains their
+  /// scatter.
   const std::vector<std::vector<double>>& bench_correlation() const {
     return correlation_.measured;
   }
-  /// 1 over the variance of the measured mean and of the model's error, in the units of the
+  /// Inverse of the variance of the measured mean and of the model's error, in the units of the
   /// observable's surrogate.
   double weight(std::size_t observable) const;
-  /// The part of that variance which more readings do not lower.
+  /// The part of that variance that more readings do not reduce.
   double lasting_variance(std::size_t observable) const {
     return targets_[observable].systematic2 + model_variance(observable);
   }
-  /// Takes the model for so many times as wrong as Observable::model_sd says.
+  /// Scales the model's error to this multiple of Observable::model_sd.
   void scale_model_errors(double scale) { model_scale_ = scale; }
   double model_scale() const { return model_scale_; }
   bool has_model_errors() const;
-  /// What a search minimises: those of chi2(), and small ones that choose among equals.
+  /// What a search minimises: those of chi2(), plus small ones that break ties.
   Residuals residuals(const Point& point, bool with_jacobian) const;
-  /// Of the fit that has its minimum there (freedom.cpp).
+  /// Of the fit whose minimum is there (freedom.cpp).
   Freedom freedom(const Point& best) const;
-  /// By how much chi2 may rise above its minimum, which is at `best`, within the 95 % interval of a
-  /// coordinate: kChi2Limit where all scatters are known (interval_limit.cpp).
+  /// How far chi2 may rise above its minimum, which is at `best`, within the 95 % interval of a
+  /// coordinate: kChi2Limit if all scatters are known (interval_limit.cpp).
   double interval_limit(const Point& best, std::size_t coordinate) const;
 
  private:
@@ -138,9 +138,9 @@ class Misfit {
   struct Target {
     double value = 0;
     double sd = 0;
-    double systematic2 = 0;  ///< of its square, what the readings have in common
+    double systematic2 = 0;  ///< part of the variance common to all readings
     double model_sd = 0;     ///< Observable::model_sd
-    double scatter2 = 0;     ///< of its square, what the scatter of the readings adds, not widened
+    double scatter2 = 0;     ///< part of the variance from the scatter of the readings, not widened
     double widening2 = 1;    ///< square of few_readings_factor(), by which it is widened
     double scatter_df = 0;   ///< degrees_of_scatter()
   };
@@ -157,7 +157,7 @@ class Misfit {
   struct NormalEquations;
   NormalEquations normal_equations(const Point& best, const std::vector<bool>& is_free,
                                    const Linearised& fit) const;
-  /// Their residuals, made independent of each other.
+  /// Their residuals, decorrelated.
   void add_together(const Together& together, const Point& point, bool with_jacobian,
                     Residuals& all) const;
   void add_priors(const Point& point, bool with_jacobian, Residuals& all) const;
@@ -174,12 +174,12 @@ class Misfit {
   bool robust_ = false;
 };
 
-/// The slope of a residual that a robust loss has made of a difference, with that difference: below
-/// 1, it counts less.
+/// Derivative of a robust residual with respect to the difference it is made from: below 1, the
+/// difference counts less.
 double robust_slope(double residual);
 
-/// The share by which an uncertainty is widened because the sd is from few readings: Student's t of
-/// n - 1 degrees of freedom over the normal's 1.96, at 95 %. 1 for an assumed sd.
+/// The factor by which an uncertainty is widened because the sd is from few readings: Student's t
+/// with n - 1 degrees of freedom over the normal's 1.96, at 95 %. 1 for an assumed sd.
 double few_readings_factor(const Observable& observable);
 
 }  // namespace repose::calibrate

@@ -12,14 +12,14 @@ namespace {
 constexpr std::size_t kParticles = 300;
 constexpr double kWide = .25;
 constexpr int kMoves = 3;       // after each step
-constexpr int kLastMoves = 12;  // after those that are handed out
+constexpr int kLastMoves = 12;  // after the steps whose result is returned
 
 struct Particle {
   Point point;
   double chi2 = 0;
 };
 
-/// The particles' share of equal weight if the misfit's weight grew by `step`.
+/// Effective fraction of the particles if the misfit's weight grew by `step`.
 double effective_fraction(const std::vector<Particle>& particles, double least, double step) {
   double sum = 0;
   double sum2 = 0;
@@ -38,7 +38,7 @@ double least_chi2(const std::vector<Particle>& particles) {
   return least->chi2;
 }
 
-/// The largest step up to `most` that leaves half of the particles of effect.
+/// The largest step up to `most` that keeps half of the particles effective.
 double next_step(const std::vector<Particle>& particles, double most) {
   const double least = least_chi2(particles);
   if (effective_fraction(particles, least, most) >= .5) return most;
@@ -74,7 +74,7 @@ void resample(std::vector<Particle>& particles, double step, Random& random) {
   particles = std::move(chosen);
 }
 
-/// One try for each particle, at the misfit's weight `power`.
+/// One proposal for each particle, at the misfit's weight `power`.
 void move(const Misfit& misfit, double power, double reach, std::vector<Particle>& particles,
           Random& random) {
   stop_if_interrupted();
@@ -103,7 +103,7 @@ void move_often(const Misfit& misfit, double power, int times, std::vector<Parti
   }
 }
 
-/// From weight `power` of the misfit to `until`.
+/// Raises the weight of the misfit from `power` to `until`.
 void temper(const Misfit& misfit, double& power, double until, std::vector<Particle>& particles,
             Random& random) {
   while (power < until) {

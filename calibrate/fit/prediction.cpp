@@ -12,9 +12,9 @@
 namespace repose::calibrate {
 namespace {
 
-/// Checks of sets of parameters have seeds up to some millions above kFirstCheckSeed.
+/// Checks of parameter sets use seeds up to some millions above kFirstCheckSeed.
 constexpr std::uint64_t kFirstPredictionSeed = kFirstCheckSeed + 500'000'000;
-constexpr std::size_t kFewestSets = 3;  // two say nothing of their scatter
+constexpr std::size_t kFewestSets = 3;  // two say nothing about their scatter
 
 int repeats_of(const Experiment& experiment) {
   return experiment.is_stochastic ? kPredictionRepeats : 1;
@@ -26,7 +26,7 @@ Job job_of(const Problem& problem, const Experiment& experiment, const std::vect
                 problem.settings.seed + kFirstPredictionSeed + number);
 }
 
-/// All over the bounds of what the experiment depends on; `first`: the number of the first job.
+/// Spread over the bounds of the experiment's parameters; `first`: the number of the first job.
 std::vector<Job> range_jobs(const Problem& problem, const Experiment& experiment,
                             std::size_t first) {
   std::vector<Job> jobs;
@@ -44,7 +44,7 @@ std::size_t drawn_jobs(const Experiment& experiment, const JointFit& fit) {
   return fit.drawn.size() * static_cast<std::size_t>(repeats_of(experiment));
 }
 
-/// None: the run was not made, or gave none.
+/// std::nullopt: the run was not made, or gave no reading.
 std::optional<double> reading_of_job(const std::vector<Run>& runs, const Job& job,
                                      const std::string& reading) {
   const auto run = std::ranges::find(runs, job, &Run::job);
@@ -54,7 +54,7 @@ std::optional<double> reading_of_job(const std::vector<Run>& runs, const Job& jo
   return found->second;
 }
 
-/// Means at the sets that gave a reading, and what runs at one set scatter by.
+/// Means at the sets that gave a reading, and the scatter of runs at one set.
 struct SetMeans {
   std::vector<double> means;
   double per_set = 0;         ///< mean of 1 / runs
@@ -112,8 +112,8 @@ double variance_of(const std::vector<double>& values) {
   return squares / static_cast<double>(values.size() - 1);
 }
 
-/// The standard uncertainty of a measured mean; a scatter that is only assumed is no less than that
-/// of single readings in the simulation, as in the fit.
+/// The standard uncertainty of a measured mean; an assumed scatter is no less than that of single
+/// readings in the simulation, as in the fit.
 double measured_uncertainty_of(const Problem& problem, const Observable& observable, double run_sd,
                                const std::vector<Run>& runs) {
   const double known = standard_uncertainty(observable);
@@ -124,7 +124,7 @@ double measured_uncertainty_of(const Problem& problem, const Observable& observa
   return with_systematic(observable, std::max(known, reading_sd / std::sqrt(observable.n)));
 }
 
-/// Of the runs all over the bounds and of the drawn sets, as far as a bench can read it.
+/// From the runs spread over the bounds and at the drawn sets, as far as a bench can read it.
 std::optional<Interval> possible_of(const Problem& problem, const JointFit& fit,
                                     const Observable& observable, const std::vector<Run>& runs,
                                     const SetMeans& sets) {
@@ -165,7 +165,7 @@ Prediction prediction_of(const Problem& problem, const JointFit& fit, const Obse
   prediction.tolerance = margin.value;
   prediction.tolerance_from = margin.source;
   if (sets.means.size() < kFewestSets) {
-    // Where the bench has a reading, coefficients that never give one are wrong.
+    // Since the bench has a reading, coefficients that never give one are wrong.
     if (sets.means.empty()) prediction.verdict = AgreementVerdict::disagrees;
     return prediction;
   }
@@ -198,7 +198,7 @@ void judge(const Problem& problem, const Observable& observable, const Uncertain
   const UncertainMean bench =
       with_known({prediction.measured, std::sqrt(scatter2), degrees_of_scatter(observable)},
                  observable.systematic_sd);
-  // That the model is wrong makes no difference less real, but a difference less of a surprise.
+  // An error of the model makes a difference no less real, only less of a surprise.
   const UncertainMean difference = difference_of(of_sets, bench);
   const UncertainMean by_chance = difference_of(real, bench);
   prediction.difference_sigma = by_chance.value / by_chance.uncertainty;

@@ -9,16 +9,16 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr int kFewestDegrees = 4;       // of freedom that a correlation is seen with
-constexpr double kMaxCorrelated = .95;  // of a correlation: two readings are never quite one
+constexpr int kFewestDegrees = 4;       // degrees of freedom needed to estimate a correlation
+constexpr double kMaxCorrelated = .95;  // of a correlation: two readings are never quite identical
 
-/// Two readings of the same runs.
+/// Pairs of readings from the same runs.
 struct Pairs {
   std::vector<double> one;
   std::vector<double> other;
 };
 
-/// At each place that has runs with both readings.
+/// For each place that has runs with both readings.
 std::vector<Pairs> repeats_of(const Surrogate& one, const Surrogate& other) {
   const TrainingSet& of_one = one.training_set();
   const TrainingSet& of_other = other.training_set();

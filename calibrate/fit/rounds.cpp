@@ -25,9 +25,9 @@ namespace {
 
 constexpr int kRepeatEvery = 5;
 constexpr double kDear = 10;               // times the cost of a run of the cheap experiment
-constexpr std::size_t kAnywhereEvery = 8;  // one of so many places is anywhere in the box
+constexpr std::size_t kAnywhereEvery = 8;  // one place in this many is anywhere in the box
 
-/// Where a place of the sequence comes to lie.
+/// Maps a place of the sequence to its final position.
 using Placing = std::function<Point(std::size_t place, Point point)>;
 
 /// `count` of the usual runs.
@@ -35,7 +35,7 @@ void add_jobs(const Problem& problem, const Experiment& experiment, int count,
               const Placing& placing, std::vector<Job>& jobs) {
   std::size_t place = 0;
   for (int k = 0; k < count; ++k) {
-    // The job after every fifth place is at that place again.
+    // The job after every fifth place repeats that place.
     const bool repeat = experiment.is_stochastic && k % (kRepeatEvery + 1) == kRepeatEvery;
     if (k > 0 && !repeat) ++place;
     const Point own = sequence_point(place, experiment.parameters.size());
@@ -71,7 +71,7 @@ Problem leading_part(const Problem& problem) {
   return part;
 }
 
-/// Values of each parameter that some leading experiment depends on, ascending; else none.
+/// Values of each parameter that some leading experiment depends on, ascending; empty for others.
 using Marginals = std::vector<std::vector<double>>;
 
 Marginals plausible_values(const Problem& leading, const std::vector<Run>& runs) {
@@ -152,13 +152,13 @@ struct JobLess {
   }
 };
 
-/// What the rounds so far say.
+/// State of the study after the rounds so far.
 class Study {
  public:
   explicit Study(const Problem& problem)
       : problem_(problem), experiments_(measured_experiments(problem)) {}
 
-  /// Takes the runs of one more complete round.
+  /// Adds the runs of one more complete round.
   void learn(const std::vector<Run>& runs) {
     for (const Run& run : runs) {
       known_.push_back(run);
@@ -233,7 +233,7 @@ class Study {
     return found;
   }
 
-  /// Of each experiment: how much its surrogates add to the uncertainty; 0 where that is little.
+  /// For each experiment: how much its surrogates add to the uncertainty; 0 if that is little.
   std::vector<double> needs() const {
     std::vector<double> needs;
     for (const Experiment& experiment : experiments_) {
@@ -246,7 +246,7 @@ class Study {
     return needs;
   }
 
-  /// So many of its usual runs, or what is as long and tells more.
+  /// `count` of its usual runs, or a more informative selection of the same total duration.
   std::vector<ChosenRun> chosen_runs(const Experiment& experiment, std::size_t count, double left_s,
                                      const std::vector<Point>& candidates) const {
     std::vector<Surrogate> surrogates;
@@ -290,7 +290,7 @@ class Study {
            experiment.coarse ? RunKind::coarse : RunKind::full);
     }
     for (const Job& job : planned) {
-      // Without chance the same place again has nothing new.
+      // If deterministic, the same place again adds nothing new.
       if (!planned_.contains(job) && std::find(jobs.begin(), jobs.end(), job) == jobs.end()) {
         jobs.push_back(job);
       }
@@ -307,14 +307,14 @@ class Study {
   std::vector<RoundSummary> summaries_;
 };
 
-/// The runs there are, by their jobs.
+/// The completed runs, by their jobs.
 class Done {
  public:
   Done(const Problem& problem, const std::vector<Run>& runs) {
     for (const Run& run : in_order(problem, runs)) runs_.emplace(run.job, run);
   }
 
-  /// The runs of these jobs; none, and the jobs that are missing, where some are.
+  /// The runs of these jobs; std::nullopt, and the missing jobs, if some are missing.
   std::optional<std::vector<Run>> take(const std::vector<Job>& jobs,
                                        std::vector<Job>& missing) const {
     std::vector<Run> taken;

@@ -21,8 +21,8 @@ constexpr int kFewestRepeats = 5;
 constexpr int kCoarseRepeats = 24;  // cheap, and each scatters more than a full run
 constexpr double kInterval = .975;
 
-/// The value to be simulated, and the same as a multiple of the study's; 1 where none is nearer to
-/// reality than the study's is.
+/// The value to be simulated, and its multiple of the study's value; 1 if none is closer to reality
+/// than the study's.
 struct Nearer {
   double value = 1;
   double multiple = 1;
@@ -51,7 +51,7 @@ bool is_of(const std::vector<Observable>& observables, const Experiment& experim
   });
 }
 
-/// Those among the jobs that were made cost nothing, and are not made again.
+/// Jobs already made cost nothing, and are not made again.
 void add_jobs(const Problem& problem, const Experiment& experiment,
               const std::vector<double>& values, int repeats, const AssumedInputs& inputs,
               const std::vector<Job>& made, SensitivityPlan& plan) {
@@ -65,7 +65,7 @@ void add_jobs(const Problem& problem, const Experiment& experiment,
   }
 }
 
-/// One experiment alone.
+/// For one experiment alone.
 SensitivityPlan plan_of(const Problem& problem, const Experiment& experiment,
                         const AssumedInputs& inputs, const std::vector<double>& values, int repeats,
                         const std::vector<Job>& made) {
@@ -77,7 +77,7 @@ SensitivityPlan plan_of(const Problem& problem, const Experiment& experiment,
   return plan;
 }
 
-/// The same with fewer repeats where so many take longer; none where the fewest do, too.
+/// The same with fewer repeats if they would take too long; std::nullopt if even the fewest do.
 std::optional<SensitivityPlan> plan_within(double seconds, const Problem& problem,
                                            const Experiment& experiment,
                                            const AssumedInputs& inputs,
@@ -90,7 +90,7 @@ std::optional<SensitivityPlan> plan_within(double seconds, const Problem& proble
   return std::nullopt;
 }
 
-/// A measured mean and its place in the fit; `fit` is null where it is held out.
+/// A measured mean and its index in the fit; `fit` is null if it is held out.
 struct Asked {
   const Observable& observable;
   const JointFit* fit;
@@ -101,7 +101,7 @@ struct Asked {
   }
 };
 
-/// Of the measured mean; a scatter that is only assumed counts as known.
+/// Of the measured mean; an assumed scatter counts as known.
 double half_width_95(const Asked& asked) {
   const Observable& observable = asked.observable;
   return base::student_t_quantile(kInterval,
@@ -125,7 +125,7 @@ void judge(const UncertainMean& change, double level, SensitivityCheck& check) {
   }
 }
 
-/// None where no other value was simulated.
+/// std::nullopt if no other value was simulated.
 std::optional<SensitivityCheck> check_of(const Problem& problem, AssumedInput input,
                                          const std::vector<double>& values,
                                          const std::vector<Run>& runs, const Asked& asked,
@@ -151,7 +151,7 @@ std::optional<SensitivityCheck> check_of(const Problem& problem, AssumedInput in
                          .limit = half_width_95(asked),
                          .runs = changed.count(),
                          .failed_runs = changed.failed};
-  // Larger grains may make no heap where the study's do.
+  // Larger grains may form no heap where the study's do.
   const bool is_full = check.grain_size == 1;
   if (is_full && changed.count() == 0 && own.count() > 0) {
     check.verdict = AgreementVerdict::disagrees;
@@ -221,16 +221,16 @@ bool is_known(const SensitivityCheck& check) {
          std::isfinite(check.interval.high);
 }
 
-/// What the study's grains would read where the bench's read `mean`: `change` is what makes them
-/// more like the bench's, if it adds to a reading, and if it goes with it.
+/// Range of what the study's grains would read where the bench's read `mean`. `change`: effect of
+/// making them more like the bench's, which adds to a reading at one end, scales it at the other.
 Interval without(double mean, double change) {
   const double added = mean - change;
   const bool can_go_with_it = mean > 0 && mean + change > 0;
   return {added, can_go_with_it ? mean * mean / (mean + change) : added};
 }
 
-/// One pair of readings does not tell which of both it is, nor what is between them: the middle,
-/// and the standard deviation of what is anywhere in between (JCGM 100:2008, GUM, 4.3.7).
+/// One pair of readings shows neither which of the two it is, nor what lies between: uses the
+/// middle, and the standard deviation of a value anywhere in between (JCGM 100:2008, GUM, 4.3.7).
 void take_from(Observable& observable, const SensitivityCheck& check) {
   const auto readable = [&](double reading) {
     return std::clamp(reading, observable.least, observable.most);

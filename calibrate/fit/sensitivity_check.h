@@ -9,51 +9,51 @@
 
 namespace repose::calibrate {
 
-/// What a study assumes, no fit seeks, and simulations may be brought nearer to reality in: the
-/// stiffness of grains, and the number of spheres that stand for one.
+/// Inputs that a study assumes without fitting them, and that simulations can bring closer to
+/// reality: the stiffness of grains, and the number of spheres that represent one.
 enum class AssumedInput { stiffness, spheres };
 
-/// What another value of an assumed input changes in a measured reading, at the same coefficients.
-/// In its unit; NaN where too few runs gave a reading.
+/// Change of a measured reading with another value of an assumed input, at the same coefficients.
+/// In its unit; NaN if too few runs gave a reading.
 struct SensitivityCheck {
   std::string name;
   std::string unit;
   AssumedInput input = AssumedInput::stiffness;
   double multiple = 1;     ///< of the study's stiffness, or spheres
-  double value = 1;        ///< of the input with that: a stiffness factor, a number of spheres
+  double value = 1;        ///< resulting input: a stiffness factor, a number of spheres
   double grain_size = 1;   ///< of the grains compared, as a multiple of the study's: coarse runs
-  double change = 0;       ///< of the mean: with that value less with the study's
+  double change = 0;       ///< of the mean: with that value minus with the study's
   double uncertainty = 0;  ///< standard uncertainty of the change
   Interval interval;       ///< 95 %
-  double chance = 0;       ///< of so large a change by chance
+  double chance = 0;       ///< probability of so large a change by chance
   double limit = 0;        ///< half-width of the measured mean's 95 % interval
-  int runs = 0;            ///< with that value, and a reading
+  int runs = 0;            ///< with that value and a reading
   int failed_runs = 0;
   /// agrees: the change is shown to be within the limit. disagrees: it is shown to be beyond it.
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
 };
 
-/// Simulations of every measured experiment in which the input can be nearer to reality, at one set
+/// Simulations of every measured experiment in which the input can be closer to reality, at one set
 /// of coefficients: grains ten times stiffer than the study's, or as stiff as real ones if that is
-/// less; four times the spheres, or as many as can be if that is less. Those held out also as the
-/// study has it, which no other check simulates there. Where an experiment has coarse runs, all of
-/// its runs here are coarse: larger grains are taken to change by as much as the study's, which
-/// those that give no reading say nothing of.
+/// less; four times the spheres, or as many as possible if that is less. Held-out experiments are
+/// also run as in the study, since no other check simulates them there. If an experiment has coarse
+/// runs, all of its runs here are coarse: larger grains are assumed to change by as much as the
+/// study's; failed coarse runs say nothing about those.
 struct SensitivityPlan {
   std::vector<Job> jobs;
   std::vector<std::string> over_budget;  ///< experiments that would take too much of the budget
   double run_s = 0;                      ///< work of all jobs, by Experiment::run_s
 };
 
-/// `repeats` of each, 24 of coarse runs if these are more, or no fewer than five where time is
-/// short; the cheapest first, as long as a fifth of FitSettings::budget_s lasts.
-/// @param made  jobs that are made anyway, by the plan of another input
+/// `repeats` of each, 24 of coarse runs if that is more, or no fewer than five if time is short;
+/// the cheapest first, as long as a fifth of FitSettings::budget_s lasts.
+/// @param made  jobs already made by the plan of another input
 SensitivityPlan plan_sensitivity(const Problem& problem, AssumedInput input,
                                  const std::vector<double>& values, int repeats,
                                  const std::vector<Job>& made = {});
 
-/// What the runs of the plan say, against those among them, or in the fit's checks, that are as the
-/// study has it. Formulae and reasons: THEORY.md, "Assumed inputs". Proved by StiffnessCheck.* and
+/// Compares the plan's runs with those among them, or in the fit's checks, that are as in the
+/// study. Formulae and reasons: THEORY.md, "Assumed inputs". Proved by StiffnessCheck.* and
 /// ShapeCheck.* in tests/calibrate.
 std::vector<SensitivityCheck> check_sensitivity(const Problem& problem, AssumedInput input,
                                                 const std::vector<double>& values,
@@ -68,9 +68,9 @@ struct MovedCoefficient {
   Verdict verdict = Verdict::undetermined;
 };
 
-/// In the order of Problem::parameters; none where no check knows what that changes. The same runs
-/// fitted to means without these changes, which are as uncertain as the checks say: THEORY.md,
-/// "Assumed inputs". Proved by StifferCoefficients.* in tests/calibrate.
+/// In the order of Problem::parameters; empty if no check knows the change. The same runs fitted to
+/// means without these changes, with the uncertainty that the checks give: THEORY.md, "Assumed
+/// inputs". Proved by StifferCoefficients.* in tests/calibrate.
 std::vector<MovedCoefficient> moved_coefficients(const Problem& problem,
                                                  const std::vector<SensitivityCheck>& checks,
                                                  const std::vector<Run>& runs);

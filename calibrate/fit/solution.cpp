@@ -20,18 +20,18 @@ constexpr double kMinDegrees = 1;
 
 constexpr double kMaxScale = 1024;  // a power of two: the search doubles
 
-constexpr int kHalvings = 12;  // of the scale's logarithm: to a thousandth
+constexpr int kHalvings = 12;  // of the scale's logarithm: down to a thousandth
 
-/// How many times as wrong as Observable::model_sd says the model has to be, at least, for the
-/// readings to differ from it by no more than chance and its own error make them: 1 where they do
-/// as it is, where less than one degree of freedom is left to tell by, or where no reading has such
-/// an error. `best` is the minimum of the misfit.
+/// Smallest multiple of Observable::model_sd at which the readings differ from the model by no more
+/// than chance and the model's error explain: 1 if they already do, if less than one degree of
+/// freedom is left to test with, or if no reading has such an error. `best` is the minimum of the
+/// misfit.
 ///
 /// Formulae and reasons: THEORY.md, "The model's own error". Proved by ModelError.* in
 /// tests/calibrate.
 double model_error_scale(Misfit misfit, Minimum best) {
-  // Chi-square less its mean, which is that of its degrees of freedom: Paule and Mandel (1982),
-  // J. Res. Natl. Bur. Stand. 87, 377. It falls as the model is trusted less.
+  // Chi-square less its mean, which is its degrees of freedom: Paule and Mandel (1982), J. Res.
+  // Natl. Bur. Stand. 87, 377. It falls as the model is trusted less.
   const auto excess = [&](double scale) {
     misfit.scale_model_errors(scale);
     best = minimum_from(misfit, best.point);
@@ -52,7 +52,7 @@ double model_error_scale(Misfit misfit, Minimum best) {
 constexpr std::size_t kSearched = 256;
 constexpr std::size_t kStarts = 12;
 
-/// All residuals; every coordinate is a block of its own, so that any can be held.
+/// All residuals; every coordinate is a block of its own, so that any can be held fixed.
 class AllResiduals : public ceres::CostFunction {
  public:
   explicit AllResiduals(const Misfit& misfit) : misfit_(misfit) {
@@ -134,21 +134,21 @@ Minimum least_minimum(const Misfit& misfit, const std::vector<Point>& extra) {
 
 namespace {
 
-constexpr double kGrowth = 1.6;       // of the steps outwards
-constexpr double kSmallest = .004;    // first step, of the box
-constexpr double kLargest = .15;      // step, of the box
-constexpr int kRefinements = 4;       // of where the limit is crossed
-constexpr double kCloseEnough = .02;  // to the limit, of it
+constexpr double kGrowth = 1.6;       // factor between outward steps
+constexpr double kSmallest = .004;    // first step, fraction of the box
+constexpr double kLargest = .15;      // step, fraction of the box
+constexpr int kRefinements = 4;       // of the crossing with the limit
+constexpr double kCloseEnough = .02;  // to the limit, relative
 
 /// Follows the minimum along one coordinate.
 class Tracer {
  public:
-  /// @param rise  of chi2 that ends the interval
+  /// @param rise  of chi2 at the end of the interval
   Tracer(const Misfit& misfit, std::size_t held, double rise, const std::vector<Point>& plausible)
       : misfit_(misfit), held_(held), rise_(rise), plausible_(plausible) {}
 
-  /// The minimum where the coordinate is `x`, searched from its neighbour's and from the plausible
-  /// point nearest to it.
+  /// The minimum with the coordinate held at `x`, searched from its neighbour's and from the
+  /// plausible point nearest to it.
   Minimum at(double x, const Minimum& neighbour) const {
     Point near = *std::min_element(plausible_.begin(), plausible_.end(),
                                    [&](const Point& a, const Point& b) {
@@ -162,7 +162,7 @@ class Tracer {
     return other.objective < one.objective ? other : one;
   }
 
-  /// Where the limit lies between a minimum inside and one outside. All tried are added to
+  /// Where the limit lies between a minimum inside and one outside. All those tried are added to
   /// `minima`.
   double crossing(Minimum inside, Minimum outside, double limit,
                   std::vector<Minimum>& minima) const {
@@ -171,7 +171,7 @@ class Tracer {
     };
     double x = 0;
     for (int i = 0; i <= kRefinements; ++i) {
-      // Near a minimum the root of the rise is straight.
+      // Near a minimum the square root of the rise is linear.
       const double a = rise(inside);
       const double b = rise(outside);
       const double fraction = std::clamp((std::sqrt(rise_) - a) / (b - a), .05, .95);
@@ -234,7 +234,7 @@ Profile profile_along(const Misfit& misfit, const Minimum& best, std::size_t hel
 
 namespace {
 
-constexpr double kBetter = .01;  // in chi2: worth beginning again
+constexpr double kBetter = .01;  // in chi2: worth restarting
 constexpr int kMaxTurns = 4;
 
 std::vector<Profile> profiles_of(const Misfit& misfit, const Minimum& best,
@@ -246,7 +246,7 @@ std::vector<Profile> profiles_of(const Misfit& misfit, const Minimum& best,
   return profiles;
 }
 
-/// The least minimum on any profile.
+/// The lowest minimum on any profile.
 Minimum least_of(const std::vector<Profile>& profiles, Minimum least) {
   for (const Profile& profile : profiles) {
     for (const Minimum& minimum : profile.minima) {
@@ -296,7 +296,7 @@ double distance2(const Point& a, const Point& b) {
   return sum;
 }
 
-/// In no coordinate outside of its interval, which may end before.
+/// Minima within the limit and inside the interval of every coordinate, which may be narrower.
 std::vector<Minimum> within_limit(const Solution& solution) {
   std::vector<Minimum> all;
   const auto is_inside = [&](const Point& point) {

@@ -14,31 +14,31 @@ namespace repose::calibrate {
 struct Minimum {
   Point point;
   double chi2 = 0;       ///< Misfit::chi2 there
-  double objective = 0;  ///< with the small residuals that choose among equals
+  double objective = 0;  ///< with the small residuals that break ties
 };
 
-/// Goes down from `start` within the box (Ceres, Levenberg and Marquardt with bounds); coordinate
-/// `held` stays.
+/// Descends from `start` within the box (Ceres, Levenberg-Marquardt with bounds); coordinate `held`
+/// stays fixed.
 Minimum minimum_from(const Misfit& misfit, Point start, std::optional<std::size_t> held = {});
 
-/// The least of the minima from `extra` starts and the best dozen of a spread of points.
+/// The lowest of the minima from `extra` starts and the best dozen of a spread of points.
 Minimum least_minimum(const Misfit& misfit, const std::vector<Point>& extra);
 
-/// Chi-squared of one degree of freedom at 95 %: what a profile may rise to inside the interval.
+/// Chi-squared of one degree of freedom at 95 %: how far a profile may rise inside the interval.
 inline constexpr double kChi2Limit = 3.841458820694124;
 
 /// The best fit as a function of one coordinate.
 struct Profile {
-  std::vector<Minimum> minima;  ///< by rising coordinate, the best fit among them
+  std::vector<Minimum> minima;  ///< by increasing coordinate, including the best fit
   double low = 0;               ///< the interval, in the unit box
   double high = 1;
-  double rise = kChi2Limit;  ///< of chi2, that ends it: Misfit::interval_limit()
+  double rise = kChi2Limit;  ///< of chi2 at the ends of the interval: Misfit::interval_limit()
 };
 
 /// Follows the best fit with coordinate `held` moved to both sides until chi2 has risen by
 /// Misfit::interval_limit() or a bound is met: Venzon and Moolgavkar (1988), Appl. Statist. 37, 87.
-/// `plausible` points start searches of their own and, where they are within the limit, belong to
-/// the interval even if the way to them is not. Proved by JointFit.* in tests/calibrate.
+/// `plausible` points start searches of their own and, if within the limit, belong to the interval
+/// even if the path to them does not. Proved by JointFit.* in tests/calibrate.
 Profile profile_along(const Misfit& misfit, const Minimum& best, std::size_t held,
                       const std::vector<Point>& plausible);
 
@@ -48,21 +48,21 @@ struct Solution {
   Minimum best;
   PosteriorSamples sets;
   std::vector<Profile> profiles;  ///< per coordinate
-  /// Least chi-square with the model's error as known beforehand, and its degrees of freedom.
+  /// Least chi-square with the model's error as stated beforehand, and its degrees of freedom.
   double stated_chi2 = 0;
   Freedom stated_freedom;
 };
 
-/// Learns the surrogates, finds the best fit, and follows it along every coordinate; begins again
-/// where that comes upon a better one. Where the model has to be more wrong than was said, it is.
+/// Learns the surrogates, finds the best fit, and profiles it along every coordinate; restarts if
+/// that finds a better one. If the model's error has to be larger than stated, it is scaled up.
 /// `runs` in_order.
 Solution solve(const Problem& problem, const std::vector<Run>& runs);
 
 /// Points that fit as well as the best (chi2 within kChi2Limit) and lie far from it and from each
-/// other, the farthest first; none where all such points are close together.
+/// other, the farthest first; empty if all such points are close together.
 std::vector<Minimum> equivalence_family(const Solution& solution);
 
-/// So close in the unit box that a family has one of them only.
+/// Whether they are so close in the unit box that a family includes only one of them.
 bool are_alike(const Point& a, const Point& b);
 
 }  // namespace repose::calibrate

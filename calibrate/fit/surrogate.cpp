@@ -54,14 +54,14 @@ void require_of(const Problem& problem, const Run& run) {
   }
 }
 
-/// What two runs differ by beyond this is not the simulation's rounding.
-constexpr double kAlike = 1e-9;  // of the reading, or of its unit where that is more
+/// Larger differences between two runs are not rounding errors of the simulation.
+constexpr double kAlike = 1e-9;  // of the reading, or of its unit if that is larger
 
 bool is_alike(double one, double other) {
   return std::abs(one - other) <= kAlike * std::max({1., std::abs(one), std::abs(other)});
 }
 
-/// None where there is no such number.
+/// std::nullopt if there is no such number.
 std::optional<double> reading_of(const Run& run, const std::string& name) {
   const auto found = run.readings.find(name);
   if (!run.failure.empty() || found == run.readings.end() || !std::isfinite(found->second)) {
@@ -70,7 +70,7 @@ std::optional<double> reading_of(const Run& run, const std::string& name) {
   return found->second;
 }
 
-/// In everything that a bench could measure.
+/// In every reading that a bench could measure.
 bool is_alike(const Experiment& experiment, const Run& one, const Run& other) {
   return std::ranges::all_of(experiment.measurable, [&](const std::string& name) {
     const std::optional<double> a = reading_of(one, name), b = reading_of(other, name);
@@ -92,7 +92,7 @@ std::vector<Run> in_order(const Problem& problem, const std::vector<Run>& runs) 
 
 namespace {
 
-/// Whether repeats scatter that a run is the mean of. None: it is no such mean, or does not tell.
+/// Whether the repeats behind a run's mean scatter. std::nullopt: not a mean, or not reported.
 std::optional<bool> do_repeats_differ(const Experiment& experiment, const Run& run) {
   if (run.repeats < 2) return std::nullopt;
   std::optional<bool> differ;
@@ -108,7 +108,7 @@ std::optional<bool> do_repeats_differ(const Experiment& experiment, const Run& r
 }  // namespace
 
 bool has_chance(const Experiment& experiment, const std::vector<Run>& runs) {
-  // A reading that all runs share, as of grains that never leave, would say nothing of chance.
+  // A reading shared by all runs, as of grains that never leave, would say nothing about chance.
   constexpr std::size_t kFewest = 2;
   if (!experiment.is_stochastic) return false;
   std::set<double> repeated;
@@ -207,7 +207,7 @@ Attempts attempts_of(const Problem& problem, const Experiment& experiment,
   Attempts attempts{experiment.parameters, {}, {}};
   for (const Run& run : runs) {
     if (run.job.experiment != experiment.name) continue;
-    // Larger grains may make no heap where the study's do; the other way round they do not.
+    // Larger grains may form no heap where the study's do, but not the other way round.
     if (run.job.inputs != AssumedInputs{} && !run.failure.empty()) continue;
     attempts.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
     attempts.failed.push_back(!run.failure.empty());
@@ -217,8 +217,8 @@ Attempts attempts_of(const Problem& problem, const Experiment& experiment,
 
 namespace {
 
-constexpr std::array<double, 4> kBends = {0, 1, .2, .04};  // of the readings' root mean square
-constexpr std::size_t kEnoughToChoose = 100;               // runs that a warp is chosen by
+constexpr std::array<double, 4> kBends = {0, 1, .2, .04};  // times the readings' rms
+constexpr std::size_t kEnoughToChoose = 100;               // runs used to choose a warp
 
 double root_mean_square(const std::vector<double>& values) {
   const double sum = std::inner_product(values.begin(), values.end(), values.begin(), 0.);
@@ -260,7 +260,7 @@ Surrogate::Surrogate(const TrainingSet& training_set, const std::optional<Surrog
   if (start && start->process_) from = start->process_->hyperparameters();
   warp_.warp = best_warp(from);
   process_ = learned(warp_.warp, from, thorough ? 2 : 1, 1);
-  // Without chance the process' noise stands for what its curve does not follow.
+  // If deterministic, the process' noise represents what its curve does not follow.
   if (training_set_.is_stochastic) warp_.noise_sd = process_->noise_sd();
   few_runs_factor_ = factor_of_few_runs();
 }
@@ -275,12 +275,12 @@ double Surrogate::runs_told(std::size_t reading) const {
   return is_told ? repeats_of(reading) : 1;
 }
 
-/// The runs' own scatter has n - tr H degrees of freedom, H being what takes their readings to what
-/// is expected at their places: 1 - H = N K^-1, N having noise^2 by the repeats on its diagonal.
-/// The scatter of repeats about their mean has more.
+/// The runs' own scatter has n - tr H degrees of freedom, where H maps their readings to those
+/// expected at their places: 1 - H = N K^-1, N having noise^2 over the repeats on its diagonal. The
+/// scatter of repeats about their mean adds more.
 double Surrogate::factor_of_few_runs() const {
   if (!training_set_.is_stochastic) return 1;
-  constexpr double kFewest = 3;  // fewer would say more about the prior of the noise than of it
+  constexpr double kFewest = 3;  // fewer would reflect the prior of the noise more than the noise
   double df = 0;
   const std::vector<LeaveOneOut> all = process_->leave_one_out();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -301,7 +301,7 @@ GaussianProcess Surrogate::learned(double warp, const std::optional<Hyperparamet
     const double reading = training_set_.readings[i];
     places.push_back(training_set_.places[i]);
     values.push_back(AsinhWarp{warp, 0}.warped(reading));
-    // The warp is straight over what repeats scatter, and a reading is uncertain.
+    // The warp is linear over the scatter of repeats and the uncertainty of a reading.
     const double slope = warp > 0 ? 1 / std::hypot(reading, warp) : 1;
     if (!training_set_.own_sds.empty()) {
       means.own_variances.push_back(std::pow(slope * training_set_.own_sds[i], 2));

@@ -17,20 +17,20 @@
 #include "calibrate/fit/points.h"
 #include "calibrate/fit/reading_correlation.h"
 
-// Internal to the comparison of several means at once: included by .cpp files only.
+// Internal to the joint comparison of several means: included by .cpp files only.
 
 namespace repose::calibrate {
 
 namespace {
 
-/// Covariance of the means of several readings, and by how many degrees of freedom it is known.
+/// Covariance of the means of several readings, and its degrees of freedom.
 struct MeanCovariance {
   Eigen::MatrixXd matrix;
   double df = 0;
 };
 
-/// The probability that chance alone makes two vectors of means differ as much, neither scatter
-/// being known: Hotelling's T^2 with the degrees of freedom of Krishnamoorthy and Yu (2004), Stat.
+/// The probability that chance alone makes two vectors of means differ as much, with both scatters
+/// unknown: Hotelling's T^2 with the degrees of freedom of Krishnamoorthy and Yu (2004), Stat.
 /// Probab. Lett. 66, 161, which are Welch's for a single reading.
 double chance_of(const Eigen::VectorXd& difference, const MeanCovariance& one,
                  const MeanCovariance& other) {
@@ -49,11 +49,11 @@ double chance_of(const Eigen::VectorXd& difference, const MeanCovariance& one,
 }
 
 constexpr std::uint64_t kSeedsPerSet = 1'000'000;
-constexpr double kCheapFraction = .25;  // of the time that the dearest experiment's repeats take
+constexpr double kCheapFraction = .25;  // of the time for the most expensive experiment's repeats
 constexpr int kMaxRepeats = 30;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Cheap experiments are repeated as often as hardly lengthens the check.
+/// Cheap experiments are repeated as often as possible without lengthening the check noticeably.
 int repeats_of(const Experiment& experiment, double dearest_s, int repeats) {
   if (!experiment.is_stochastic) return 1;
   const double affordable = kCheapFraction * repeats * dearest_s / experiment.run_s;
@@ -61,19 +61,19 @@ int repeats_of(const Experiment& experiment, double dearest_s, int repeats) {
   return affordable < most ? std::max(static_cast<int>(affordable), repeats) : most;
 }
 
-/// Both means of all observables, and how their differences vary.
+/// Both means of all observables, and the covariance of their differences.
 class Differences {
  public:
   Differences(const Problem& problem, const std::vector<UncertainMean>& simulated,
               const std::vector<double>& measured_uncertainty, const JointFit* fit,
               const Freedom* made_by);
 
-  /// As if the bench's mean had no part in what was simulated: what equivalence is judged by. What
-  /// the model gets wrong is part of the difference, not of its uncertainty.
+  /// As if the bench's mean had not affected what was simulated: used to judge equivalence. Errors
+  /// of the model are part of the difference, not of its uncertainty.
   UncertainMean whole(std::size_t i) const { return difference_of(simulated_[i], measured_[i]); }
-  /// As it is by chance, the fit having followed a part of the bench's.
+  /// With its random uncertainty, given that the fit followed part of the bench's errors.
   UncertainMean left(std::size_t i) const;
-  /// The part of a true difference that the fit does not follow.
+  /// The fraction of a true difference that the fit does not follow.
   double seen(std::size_t i) const { return kept_(place(i), place(i)); }
   /// Probability that all of these differ so much by chance.
   double chance(const std::vector<std::size_t>& there) const;
@@ -88,11 +88,11 @@ class Differences {
   Eigen::MatrixXd bench_;   ///< covariance of the measured means
   Eigen::MatrixXd runs_;    ///< of the simulated ones
   Eigen::MatrixXd kept_;    ///< I - H
-  Eigen::MatrixXd model_;   ///< of what the model gets wrong
-  Eigen::MatrixXd unsure_;  ///< of the differences by what the fit did not know
+  Eigen::MatrixXd model_;   ///< of the model's errors
+  Eigen::MatrixXd unsure_;  ///< of the differences, from the uncertainty of the fit
 };
 
-/// Only the scatter of readings is known by how many there are.
+/// Only the scatter of readings has finitely many degrees of freedom.
 UncertainMean bench_mean(const Observable& observable, double uncertainty) {
   const double scatter2 = std::pow(uncertainty, 2) - std::pow(observable.systematic_sd, 2);
   return with_known(
@@ -155,7 +155,7 @@ UncertainMean Differences::left(std::size_t i) const {
   }
   const double model2 = (kept_.row(place(i)) * model_ * kept_.row(place(i)).transpose())(0);
   const double bench_df = spread > 0 ? own * own / spread : kInfinite;
-  // What the fit did not know counts as known itself: it adds to the variance alone.
+  // The fit's own uncertainty is treated as known exactly: it only adds to the variance.
   const double known = std::sqrt(unsure_(place(i), place(i)) + model2);
   return difference_of(simulated_[i],
                        with_known({measured_[i].value, std::sqrt(bench2), bench_df}, known));
@@ -205,12 +205,12 @@ double Differences::chance(const std::vector<std::size_t>& there) const {
                                                    .df = mean * mean / half_variance});
 }
 
-/// Everything about one observable but whether it disagrees: that depends on the others, too.
+/// Everything about one observable except whether it disagrees, which depends on the others, too.
 Agreement compared(const Observable& observable, const CheckSample& sample,
                    const Differences& differences, std::size_t i, double level,
                    const UncertainMean& simulated, double measured_uncertainty,
                    const std::optional<Interval>& possible) {
-  constexpr double kFollowed = .05;  // of a true difference, that is left: it cannot be seen
+  constexpr double kFollowed = .05;  // with less left of a true difference, it cannot be seen
   const UncertainMean whole = differences.whole(i);
   const Margin margin = margin_of(observable, possible);
   Agreement agreement{.observable = observable.name,
@@ -237,7 +237,7 @@ Agreement compared(const Observable& observable, const CheckSample& sample,
   }
   const bool is_within = agreement.difference.low >= -agreement.tolerance &&
                          agreement.difference.high <= agreement.tolerance;
-  // A set that gives no reading now and then is not what the bench has.
+  // A set that fails occasionally does not reproduce the bench.
   if (is_within && sample.failed == 0) agreement.verdict = AgreementVerdict::agrees;
   agreement.runs_to_decide =
       runs_to_decide(whole, measured_uncertainty, sample.count(), agreement.tolerance, level);
@@ -252,8 +252,8 @@ bool gives_nothing(const Agreement& agreement) {
   return agreement.runs == 0 && agreement.failed_runs > 0;
 }
 
-/// Those that differ too much by themselves, at 5 % over all of them (Bonferroni), and only where
-/// all together do: so that one and all never contradict each other.
+/// Those that differ too much individually, at 5 % over all of them (Bonferroni), and only if all
+/// together do: so that the individual and joint verdicts never contradict each other.
 void find_disagreement(Verification& verification, double level) {
   for (Agreement& agreement : verification.observables) {
     const bool is_found = verification.chance < kLevel && agreement.chance < level;
@@ -344,7 +344,7 @@ Verification verify(const Problem& problem, const std::vector<double>& values,
 
 namespace {
 
-constexpr double kMattersInUncertainty = .5;  // of the uncertainty of measurement
+constexpr double kMattersInUncertainty = .5;  // fraction of the measurement uncertainty
 
 SurrogateCheck check_of(const Problem& problem, const JointFit& fit, std::size_t i,
                         const CheckSample& sample) {

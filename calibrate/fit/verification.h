@@ -14,7 +14,7 @@ namespace repose::calibrate {
 /// Seeds of checks begin here; a study never has so many jobs.
 inline constexpr std::uint64_t kFirstCheckSeed = 1'000'000'000;
 
-/// An observable as fresh simulations give it.
+/// An observable in fresh simulations.
 struct Agreement {
   std::string observable;
   double measured = 0;
@@ -22,18 +22,19 @@ struct Agreement {
   double simulated = 0;              ///< mean of the runs with a reading; NaN without any
   double simulated_uncertainty = 0;  ///< of that mean; 0 for experiments without chance
   double difference_sigma = 0;       ///< (simulated - measured) / both uncertainties; NaN likewise
-  /// That it is as large by chance, of which a fit to the same mean follows a part; NaN likewise.
+  /// Probability of so large a difference by chance, part of which a fit to the same mean follows;
+  /// NaN likewise.
   double chance = 0;
-  double tolerance = 0;                             ///< what does not matter
-  std::optional<MarginSource> tolerance_from = {};  ///< earlier versions did not say
-  Interval difference;  ///< 90 %: what equivalence compares with the tolerance
-  /// True difference that is seen in four of five such checks; NaN where the fit follows it.
+  double tolerance = 0;                             ///< difference that does not matter
+  std::optional<MarginSource> tolerance_from = {};  ///< earlier versions did not record it
+  Interval difference;  ///< 90 %: equivalence compares this with the tolerance
+  /// True difference that four of five such checks detect; NaN if the fit follows it.
   double detectable = 0;
-  std::optional<int> runs_to_decide;  ///< none: it is decided, or no number of runs does
+  std::optional<int> runs_to_decide;  ///< std::nullopt: it is decided, or no number of runs would
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
-  /// Of the bench; likewise, as if nothing but these became more.
+  /// Of the bench; likewise, if only their number were increased.
   std::optional<int> readings_to_decide = {};
-  int runs = 0;  ///< with a reading
+  int runs = 0;  ///< number with a reading
   int failed_runs = 0;
 };
 
@@ -41,41 +42,41 @@ struct Agreement {
 struct Verification {
   std::vector<double> values;
   std::vector<Agreement> observables;  ///< in Problem's order
-  double chance = 0;  ///< that all differ so much by chance (joint_chance); NaN without readings
+  double chance = 0;  ///< of so large differences overall (joint_chance); NaN without readings
   /// agrees: all observables do. disagrees: `chance` is below 5 %, or an experiment gives no
   /// reading at all.
   AgreementVerdict verdict = AgreementVerdict::cannot_tell;
 };
 
 /// Jobs at one set of parameters with seeds that propose() never uses, all as stiff as the study:
-/// `repeats` of the measured experiment that costs most, more of cheap ones, one of those without
-/// chance. `set` tells sets apart.
+/// `repeats` of the most expensive measured experiment, more of cheap ones, one of deterministic
+/// ones. `set` distinguishes sets.
 std::vector<Job> verification_jobs(const Problem& problem, const std::vector<double>& values,
                                    int repeats, int set);
 
-/// Compares the runs of verification_jobs(), among any others, with what was measured. `fit`, where
-/// there is one, tells how much single runs scatter better than a handful of repeats does: the
-/// larger of both counts; and what the scatter of the measurement was taken to be. `made_by`: the
-/// freedom of the fit whose best set this is, made before these runs; what it could follow of the
-/// bench's chance is no agreement. Formulae and reasons: THEORY.md, "Verification". Proved by
+/// Compares the runs of verification_jobs(), among any others, with the measurements. `fit`, if
+/// given, knows the scatter of single runs better than a few repeats do: the larger of both counts;
+/// it also gives the scatter assumed for the measurement. `made_by`: the freedom of the fit, made
+/// before these runs, whose best set this is; agreement with random errors of the bench that it
+/// could follow does not count. Formulae and reasons: THEORY.md, "Verification". Proved by
 /// Verification.* and Agreement.* in tests/calibrate.
 Verification verify(const Problem& problem, const std::vector<double>& values,
                     const std::vector<Run>& runs, const JointFit* fit = nullptr,
                     const Freedom* made_by = nullptr);
 
-/// What a surrogate expected of fresh runs before it knew of them. In the observable's unit.
+/// A surrogate's prediction of fresh runs that it had not seen. In the observable's unit.
 struct SurrogateCheck {
   std::string observable;
   double predicted = 0;
-  double uncertainty = 0;  ///< standard uncertainty of that
+  double uncertainty = 0;  ///< standard uncertainty of the prediction
   double simulated = 0;    ///< mean of the runs; NaN without any
-  double chance = 0;       ///< that it is off by so much by chance; NaN likewise
-  /// It is off by more than chance makes it in 5 % of all checks (Bonferroni over the observables),
-  /// and by more than half of the uncertainty of measurement: less does not matter.
+  double chance = 0;       ///< probability of so large an error by chance; NaN likewise
+  /// The error is larger than chance makes it in 5 % of all checks (Bonferroni over the
+  /// observables), and larger than half the measurement uncertainty: less does not matter.
   bool misses = false;
 };
 
-/// The surrogates of a fit against fresh runs at its best values, which it has not seen.
+/// Tests the surrogates of a fit with fresh runs at its best values that it has not seen.
 std::vector<SurrogateCheck> check_surrogates(const Problem& problem, const JointFit& fit,
                                              const std::vector<Run>& runs);
 

@@ -15,7 +15,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr std::size_t kSpread = 512;
-constexpr double kMatters = .05;  // of the reading's span: less is no limit
+constexpr double kMatters = .05;  // of the reading's span: less does not count as a limit
 
 }  // namespace
 
@@ -60,11 +60,11 @@ Extreme extreme_of(const Surrogate& surrogate, std::size_t dimensions, bool larg
 
 namespace {
 
-constexpr double kBeyond = 2;             // sigma, of a target out of reach
+constexpr double kBeyond = 2;             // sigma; beyond it a target is out of reach
 constexpr double kDoubtful = 1.5;         // inflation
 constexpr double kHardlyNarrower = .9;    // than the prior's interval
 constexpr double kSurrogateFraction = 1;  // of the measured variance
-constexpr double kRare = .025;            // probability of a scatter as small
+constexpr double kRare = .025;            // probability of so small a scatter
 
 std::string limits_text(const Problem& problem, const Extreme& extreme) {
   std::string text;
@@ -123,9 +123,9 @@ void warn_of_scatter(const Observable& observable, const FittedObservable& fitte
                         fitted.name, assumed));
 }
 
-/// Says so when readings are more alike than chance in the simulation lets them be: their mean may
-/// be off by more than their own scatter tells. F test of two variances, one-sided.
-/// Proved by JointFit.ReadingsThatAreMoreAlikeThanChanceAllowsAreNamed.
+/// Warns when readings are more alike than chance in the simulation allows: their mean may be off
+/// by more than their own scatter suggests. F test of two variances, one-sided. Proved by
+/// JointFit.ReadingsThatAreMoreAlikeThanChanceAllowsAreNamed.
 void warn_of_likeness(const Observable& observable, const FittedObservable& fitted, int runs,
                       std::vector<std::string>& warnings) {
   if (fitted.sd_assumed || !(fitted.predicted_sd > 0) || observable.n < 2 || runs < 2) return;
@@ -140,7 +140,7 @@ void warn_of_likeness(const Observable& observable, const FittedObservable& fitt
       fitted.name, observable.n, fitted.measured_sd, fitted.unit, fitted.predicted_sd));
 }
 
-/// Says so when an interval is not from the measurements.
+/// Warns when an interval does not come from the measurements.
 void warn_of_prior(const Parameter& parameter, const FittedParameter& fitted,
                    std::vector<std::string>& warnings) {
   const bool is_inside =
@@ -191,7 +191,7 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
     warn_of_prior(problem.parameters[j], fit.parameters[j], warnings);
   }
-  // Below one degree of freedom there is next to nothing to test: the limit stays that of one.
+  // Below one degree of freedom there is next to nothing to test: the limit for one is used.
   const double of_chi2 = std::max(fit.freedom.of_chi2, 1.);
   const double chance = base::chi_square_above(fit.chi2, of_chi2);
   if (chance < kLevel) {

@@ -11,24 +11,23 @@
 
 namespace repose::calibrate {
 
-/// A coordinate that stops a reading from going further.
+/// A coordinate at whose bound a reading reaches its extreme.
 struct Limit {
   std::size_t coordinate = 0;
   bool at_max = false;
 };
 
-/// The least or the largest expected reading in the box.
+/// The smallest or largest expected reading in the box.
 struct Extreme {
   double reading = 0;
   double uncertainty = 0;
   std::vector<Limit> limits;
 };
 
-/// By a spread of points and a search along the coordinates from the best of them.
+/// Found from a spread of points and a search along the coordinates from the best of them.
 Extreme extreme_of(const Surrogate& surrogate, std::size_t dimensions, bool largest);
 
-/// What a reader of the fit has to know: assumptions, targets out of reach, surrogates that are
-/// little to be trusted.
+/// What a reader of the fit has to know: assumptions, targets out of reach, unreliable surrogates.
 std::vector<std::string> warnings_for(const Problem& problem, const Solution& solution,
                                       const JointFit& fit);
 

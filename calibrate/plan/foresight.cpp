@@ -12,9 +12,9 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr std::size_t kEvery = 5;   // of the plausible sets is a material
-constexpr std::size_t kFewest = 8;  // runs to learn a reading from
-// Of the runs nearby: more, and the experiment gives no reading of a material.
+constexpr std::size_t kEvery = 5;   // one plausible set in this many is a material
+constexpr std::size_t kFewest = 8;  // required to learn a reading
+// Of the runs nearby: if more fail, the experiment gives no reading for a material.
 constexpr double kMaxFail = .5;
 
 double median(std::vector<double> values) {
@@ -35,13 +35,13 @@ Eigen::MatrixXd covariance_of(const std::vector<Point>& points) {
 }
 
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) {
-  // Plausible sets may lie on a line: no parameter is known better than to a thousandth.
+  // Plausible sets may lie on a line: limits the precision of every parameter to a thousandth.
   constexpr double kRidge = 1e-6;
   const auto one = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
   return (matrix + kRidge * one).ldlt().solve(Eigen::MatrixXd(one));
 }
 
-/// Standard uncertainty of the mean of so many readings where w is expected, in the reading's unit.
+/// Standard uncertainty of the mean of that many readings where w is expected, in their unit.
 double uncertainty_of_mean(const Surrogate& surrogate, double w, int readings,
                            const Experiment& experiment) {
   const double mean = std::abs(surrogate.warp().expected(w));
@@ -51,7 +51,7 @@ double uncertainty_of_mean(const Surrogate& surrogate, double w, int readings,
   return std::hypot(by_scatter, shared, experiment.model_fraction * mean);
 }
 
-/// From one bound to the other, over the uncertainty of bench and surrogate.
+/// Change from one bound to the other, over the uncertainty of bench and surrogate.
 double effect_of(const Surrogate& surrogate, const Point& material, std::size_t parameter,
                  double uncertainty) {
   Point low = material;

@@ -19,7 +19,7 @@ namespace repose::calibrate {
 
 namespace {
 
-/// Length, and the width of a spheroid as large.
+/// Length, and the width of a spheroid of the same volume.
 std::array<double, 3> sizes_mm(const dem::ClumpShape& grain) {
   const double length_mm = 2 * kMmPerM * grain.reach_m();
   const double volume_mm3 = std::pow(kMmPerM, 3) * grain.volume_m3;
@@ -40,11 +40,11 @@ bool is_measured(const dem::Measured& measured) {
   return measured.mean || !measured.values.empty();
 }
 
-/// With a number measured everywhere a study's problem has all of its experiments.
+/// With a number measured everywhere, a study's problem includes all of its experiments.
 Problem with_all(dem::Study study, const dem::ClumpFile& grain, const Budget& budget) {
   std::set<std::string> made_up;
   for (auto& [experiment, described] : study.experiments) {
-    described.is_held_out = false;  // a plan is about what could be fitted
+    described.is_held_out = false;  // a plan considers what could be fitted
     if (is_measured(described.measured)) continue;
     described.measured.mean = 1;
     made_up.insert(dem::name_of(experiment));
@@ -60,7 +60,7 @@ dem::Experiment named(const Experiment& experiment) {
   return &dem::experiment_named(experiment.name);
 }
 
-/// Leaves out what was added until the fewest runs of all take no longer than `core_s`.
+/// Leaves out added experiments until the fewest runs of all take no longer than `core_s`.
 void keep_within(double core_s, OfferedStudy& offered) {
   constexpr double kMinute_s = 60;
   std::vector<Experiment>& experiments = offered.problem.experiments;
@@ -105,7 +105,7 @@ OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
     offered.study.experiments.emplace(&entry, usual);
   }
   offered.problem = with_all(offered.study, grain, budget);
-  // A problem that is dearer than its budget was given more.
+  // A problem more expensive than its budget was given a larger one.
   offered.problem.settings.budget_s = budget.settings.budget_s;
   keep_within(kFirstFraction * budget.settings.budget_s, offered);
   for (const auto& [experiment, usual] : offered.added) {
@@ -119,7 +119,7 @@ OfferedStudy offered_study(const dem::Study& study, const dem::ClumpFile& grain,
 
 namespace {
 
-/// The jobs of a larger budget begin with those of a smaller one: this has all that there are.
+/// The jobs of a larger budget begin with those of a smaller one: this includes all of them.
 constexpr double kAll_s = 1e9;
 
 }  // namespace

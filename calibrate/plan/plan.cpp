@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kNearlyWhole = .97;
 
-/// Of two sets the better one has the higher score; narrow intervals decide among equals.
+/// The better of two sets has the higher score; narrow intervals break ties.
 struct Score {
   double determined = 0;
   double narrow = 0;
@@ -44,7 +44,7 @@ std::vector<std::size_t> to_be_done(const Foresight& foresight) {
   return places;
 }
 
-/// Those of `places` whose bits are set.
+/// The `places` whose bits are set.
 std::vector<std::size_t> chosen(const std::vector<std::size_t>& places, unsigned bits) {
   std::vector<std::size_t> set;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -93,13 +93,13 @@ std::vector<PlannedStep> smallest_set(const Foresight& foresight) {
 
 namespace {
 
-/// One after the other, as the first round of a fit to all experiments.
+/// Makes runs one experiment after another, as the first round of a fit to all experiments.
 class PlanRuns {
  public:
   PlanRuns(const OfferedStudy& offered, const StudyContext& context)
       : offered_(offered), context_(context), runner_(offered.problem, context) {}
 
-  /// False when interrupted.
+  /// False if interrupted.
   bool make(Plan& plan) {
     std::map<std::string, std::vector<Job>> jobs;
     for (Job& job : plan_jobs(offered_)) {

@@ -13,7 +13,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kHour_s = 3600;
-constexpr double kLongest_s = 20;  // of a run that is timed
+constexpr double kLongest_s = 20;  // of a timed run
 
 struct BudgetPlan {
   Budget budget;
@@ -42,7 +42,7 @@ BudgetTime time_of(BudgetPlan plan, const Pace& pace, int cores) {
   return time;
 }
 
-/// What an hour more on all these cores is worth.
+/// Runs that one more hour on all these cores buys.
 std::vector<int> hour_runs(const BudgetPlan& plan, const Pace& pace, int cores) {
   Problem problem = plan.problem;
   for (Experiment& experiment : problem.experiments) {
@@ -50,7 +50,7 @@ std::vector<int> hour_runs(const BudgetPlan& plan, const Pace& pace, int cores) 
     if (found != pace.end()) experiment.run_s *= found->second;
   }
   std::vector<int> runs = runs_for(problem, kHour_s * cores);
-  runs.resize(plan.estimates.size(), 0);  // what is held out gets no more
+  runs.resize(plan.estimates.size(), 0);  // nothing more for what is held out
   return runs;
 }
 
@@ -77,7 +77,7 @@ Pace timed_pace(const PreparedStudy& study, double longest_s,
     job.experiment = run.experiment;
     const Experiment& experiment = experiment_named(problem, run.experiment);
     double slowest = pace_of(experiment, AssumedInputs{});
-    // The first seconds of a full run see few grains yet, and a coarse one ends.
+    // The first seconds of a full run have few grains yet, while a coarse run reaches its end.
     if (experiment.coarse) slowest = std::max(slowest, pace_of(experiment, *experiment.coarse));
     pace[run.experiment] = slowest;
     if (timed) timed(pace.size(), runs.size());
@@ -101,7 +101,7 @@ BudgetTimes budget_times(const PreparedStudy& study, const std::atomic<bool>& is
   for (Budget& budget : budgets) {
     budget.is_full = study.record.budget.is_full;
     BudgetPlan plan = plan_of(study, std::move(budget));
-    times.hour_runs = hour_runs(plan, pace, times.cores);  // beside the largest
+    times.hour_runs = hour_runs(plan, pace, times.cores);  // of the last, "standard"
     times.budgets.push_back(time_of(std::move(plan), pace, times.cores));
   }
   return times;

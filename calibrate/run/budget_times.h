@@ -9,14 +9,14 @@
 #include "calibrate/run/run_study.h"
 #include "calibrate/study/study_estimate.h"
 
-/// What each budget would simulate of a study, and how long that takes on this machine.
+/// What each budget would simulate for a study, and how long that takes on this machine.
 namespace repose::calibrate {
 
-/// By the name of the experiment: seconds of a core here for a second of the program's own measure.
+/// By experiment: core seconds here per second of the program's own measure.
 using Pace = std::map<std::string, double>;
 
-/// Makes a run of each experiment, coefficients in the middle of their bounds, for `longest_s` at
-/// most, and saves nothing. @param timed, is_interrupted  as budget_times()
+/// Makes a run of each experiment, with coefficients in the middle of their bounds, for `longest_s`
+/// at most, and saves nothing. @param timed, is_interrupted  as budget_times()
 Pace timed_pace(const PreparedStudy& study, double longest_s,
                 const std::atomic<bool>& is_interrupted,
                 const std::function<void(std::size_t done, std::size_t of)>& timed = {});
@@ -24,25 +24,25 @@ Pace timed_pace(const PreparedStudy& study, double longest_s,
 struct BudgetTime {
   Budget budget;
   std::vector<ExperimentEstimate> experiments;
-  std::map<Phase, PhaseWork> phases;  ///< of all experiments; seconds here, on all the cores
-  double seconds = 0;  ///< at most, likewise; the computation between rounds is extra
+  std::map<Phase, PhaseWork> phases;  ///< of all experiments; seconds here, on all cores
+  double seconds = 0;                 ///< at most, likewise; excludes computation between rounds
 };
 
 struct BudgetTimes {
   int cores = 1;
-  std::vector<BudgetTime> budgets;  ///< the smallest first; each with the same experiments
+  std::vector<BudgetTime> budgets;  ///< a budget of another name, quick, standard
   std::vector<double> run_s;        ///< of each experiment, on one core here
-  std::vector<int> hour_runs;       ///< of each experiment, that one hour more buys; all the cores'
+  std::vector<int> hour_runs;       ///< of each experiment, that one more hour on all cores buys
 };
 
-/// Times a run of each experiment, coefficients in the middle of their bounds, and saves nothing.
+/// Times a run of each experiment, with coefficients in the middle of their bounds; saves nothing.
 /// Budgets are the one that the study is to be calibrated with, and "quick" and "standard".
-/// @param timed  is told before the first run and after each how many of them are done
+/// @param timed  called with the number done before the first run and after each
 /// @throws dem::Interrupted  `is_interrupted` became true.
 BudgetTimes budget_times(const PreparedStudy& study, const std::atomic<bool>& is_interrupted,
                          const std::function<void(std::size_t done, std::size_t of)>& timed = {});
 
-/// All of it, for programs.
+/// All of it, in machine-readable form.
 std::string to_json(const BudgetTimes& times);
 
 }  // namespace repose::calibrate

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only what repose wrote.
+/// Removes it only if repose wrote it.
 void remove_heap(const fs::path& file) {
   std::error_code ignored;
   if (dem::is_as_written(file)) fs::remove(file, ignored);

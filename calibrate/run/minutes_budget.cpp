@@ -17,8 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kMinute_s = 60;
-/// Of the time, for the fits between the rounds; a study of a few coefficients takes some seconds
-/// for them whatever its runs cost.
+/// Fraction of the time for the fits between the rounds; a study of a few coefficients takes some
+/// seconds for them, however cheap its runs.
 constexpr double kComputed = .1;
 constexpr double kLeastComputed_s = 10;
 constexpr double kMostOfChecks = .5;
@@ -30,7 +30,7 @@ struct Checks {
   int family_sets;
 };
 
-/// From those of the budgets with a name to the fewest that tell a mean's scatter.
+/// From those of the named budgets down to the fewest that show the scatter of a mean.
 constexpr std::array<Checks, 5> kChecks{
     {{3, 6, 24, 2}, {3, 5, 16, 1}, {3, 4, 10, 1}, {2, 3, 6, 0}, {2, 2, 4, 0}}};
 
@@ -47,7 +47,7 @@ Budget budget_with(double minutes, const Checks& checks) {
   return budget;
 }
 
-/// Of one core here.
+/// On one core here.
 struct Work {
   double all_s = 0;
   double checks_s = 0;
@@ -68,9 +68,9 @@ Work work_of(Problem problem, const Budget& budget, const Pace& pace) {
   return work;
 }
 
-/// The largest that takes no longer, from one that does not.
+/// Grows it to the largest that takes no longer, from one that does not.
 void grow(const Problem& problem, const Pace& pace, double core_s, Budget& budget) {
-  constexpr double kMost = 1e4;  // times the least: more runs than a fit makes
+  constexpr double kMost = 1e4;  // times the minimum: more runs than a fit makes
   constexpr int kHalvings = 40;
   double low = std::log(budget.settings.budget_s);
   double high = low + std::log(kMost);
@@ -84,7 +84,7 @@ void grow(const Problem& problem, const Pace& pace, double core_s, Budget& budge
 
 double computed_s(double seconds) { return std::max(kComputed * seconds, kLeastComputed_s); }
 
-/// So many that computed_s() leaves enough of them, a little more, in two digits.
+/// Enough that computed_s() leaves these seconds, plus a margin, rounded up to two digits.
 double minutes_for(double seconds) {
   const double minutes =
       std::max(seconds / (1 - kComputed), seconds + kLeastComputed_s) / kMinute_s;

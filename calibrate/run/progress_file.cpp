@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kEvery{1};
 constexpr std::chrono::seconds kAfterFailure{10};
-constexpr double kEnoughToTell = .01;  // of the work: less foretells no time
+constexpr double kEnoughToTell = .01;  // of the work: less is not enough to predict a time
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void ProgressFile::write() {
     base::write_whole_file(file_, json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n');
     next_written_ = Clock::now() + kEvery;
   } catch (const base::InputError&) {
-    // The study, whose runs are larger, will say it where it must.
+    // If this matters, the study will report it, as its runs are larger.
     next_written_ = Clock::now() + kAfterFailure;
   }
 }

@@ -10,15 +10,15 @@
 
 namespace repose::calibrate {
 
-/// How far a study is, as a file for programs that is written over while it goes on, about once a
-/// second, whole each time. One that cannot be written does not end the study.
+/// Progress of a study, as a file for programs that is rewritten about once a second, each time as
+/// a whole. A write error does not stop the study.
 class ProgressFile {
  public:
-  /// @param file  empty: none is written
+  /// @param file  empty: no file is written
   ProgressFile(std::filesystem::path file, std::vector<Parameter> parameters);
 
   void report(const StudyProgress& progress);
-  /// What a person should know.
+  /// Adds a note for the user.
   void note(const std::string& text);
 
  private:

@@ -31,7 +31,7 @@ void note_all(const Note& note, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) note(line);
 }
 
-/// What of a result tells whose it is, for the name of a file.
+/// Identifies the study of a result, for use in a file name.
 std::string study_name(const std::optional<StudyIdentity>& study) {
   if (!study) return "unknown";
   return fmt::format("{}{}_{}", study->method == "joint" ? std::string() : study->method + '_',
@@ -67,7 +67,7 @@ void set_aside_old_result(const fs::path& folder, const StudyIdentity& study, co
 
 namespace {
 
-/// What `fitted` returns, and then what was found damaged in the store.
+/// Returns the result of `fitted`, after noting what was found damaged in the store.
 template <typename Fitted>
 auto with_remarks(const StudyContext& context, const Note& note, const Fitted& fitted) {
   auto outcome = fitted();
@@ -93,14 +93,14 @@ bool has_final_result(const fs::path& folder) {
   }
 }
 
-/// In place of a result, but not of a final one of the same study, whose runs were lost.
+/// Takes the place of a result, but not of a final one of the same study whose runs were lost.
 void leave_provisional(const PreparedStudy& study, const StudyResult& result, const Note& note) {
   if (has_final_result(study.folder)) return;
   const fs::path file = study.folder / kResultFile;
   try {
     base::write_whole_file(file, to_json(result));
   } catch (const base::InputError& error) {
-    note_all(note, {error.what()});  // it was stopped all the same, and its runs are there
+    note_all(note, {error.what()});  // it was interrupted anyway, and its runs are saved
     return;
   }
   note_all(note, {fmt::format("{}: provisional, what is known so far", file.string())});
@@ -109,7 +109,7 @@ void leave_provisional(const PreparedStudy& study, const StudyResult& result, co
 std::optional<StudyResult> fit_jointly(const PreparedStudy& study, const StudyContext& context,
                                        const Note& note) {
   Problem problem = study.problem.problem;
-  // With what plans have left in the folder, which are runs of our own engine.
+  // Includes runs that plans have left in the folder, which are those of our own engine.
   if (study.record.study.engine.is_own()) {
     problem.offers = offers_in(context.folder, study.record.study, study.record.grain);
   }

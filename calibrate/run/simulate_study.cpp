@@ -18,7 +18,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// The experiment must be described, and what it needs must have a value.
+/// The experiment must be described, and everything it needs must have a value.
 void check(const dem::Study& study, const dem::ExperimentEntry& entry) {
   base::Faults faults;
   faults.require(dem::has_protocol(study, &entry),

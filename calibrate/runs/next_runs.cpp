@@ -31,8 +31,8 @@ double nearest2(const Point& point, const std::vector<Point>& others) {
   return nearest;
 }
 
-/// Where more of the runs nearby failed than gave a reading, the next one is likely to fail, too;
-/// or one of several.
+/// If more of the runs nearby failed than gave a reading, the next one is likely to fail, too, or
+/// one of several.
 class LikelyFailures {
  public:
   LikelyFailures(const Problem& problem, const TableRuns& table)
@@ -48,8 +48,8 @@ class LikelyFailures {
     }
     return risk > kMost;
   }
-  /// A run there is asked for. All that are asked for together bear the same risk where they are
-  /// near each other: so many that half a failure is expected among them, and no more.
+  /// Records a suggested run. Suggested runs near each other share the same risk: at most half a
+  /// failure is expected among them.
   void expect(const Point& point) {
     if (risk_.any()) asked_for_.emplace_back(point, risk_.at(point).fraction);
   }
@@ -70,8 +70,8 @@ class LikelyFailures {
   std::vector<std::pair<Point, double>> asked_for_;  ///< with the risk of each
 };
 
-/// The place of an even spread that is farthest from all that there are, of those where runs are
-/// not likely to fail; where they are everywhere, of all.
+/// The place of an even spread that is farthest from all `others`, among those where runs are not
+/// likely to fail; among all if they are likely to fail everywhere.
 Point farthest(const std::vector<Point>& others, std::size_t dimensions,
                const LikelyFailures& failures) {
   constexpr std::size_t kSpread = 512;
@@ -97,7 +97,7 @@ std::vector<Point> places_of(const Problem& problem, const TableRuns& table) {
   return places;
 }
 
-/// Some place has several runs, or a mean of several: what chance does is told.
+/// Whether some place has several runs, or a mean of several, which shows the random scatter.
 bool tells_chance(const TableRuns& table) {
   std::vector<std::vector<double>> places = table.places;
   std::ranges::sort(places);
@@ -129,8 +129,8 @@ NextRuns spread_runs(const Problem& problem, const TableRuns& table, std::size_t
   return next;
 }
 
-/// "aor is known to ± 1.1 deg from the runs here, to ± 1.5 deg on the bench": of the reading of
-/// which least is known for what the bench tells.
+/// "may fit: aor is known to ± 1.1 deg from the runs here, to ± 1.5 deg on the bench": for the
+/// reading whose surrogate is least certain relative to the bench.
 std::string reason_at(const Problem& problem, const Solution& solution, const Point& point) {
   std::size_t most = 0;
   double fraction = -1;
@@ -148,7 +148,7 @@ std::string reason_at(const Problem& problem, const Solution& solution, const Po
       solution.misfit.measured_uncertainty(most), unit);
 }
 
-/// What more runs would not do, the advice of the fit does.
+/// What the advice of the fit suggests instead of more runs.
 std::vector<std::string> settled_text(const JointFit& fit, std::size_t chosen,
                                       bool is_some_left_out) {
   std::vector<std::string> lines = {fmt::format(
@@ -164,7 +164,7 @@ std::vector<std::string> settled_text(const JointFit& fit, std::size_t chosen,
   return lines;
 }
 
-/// @return  how much of the candidates is taken out, 0 to 1
+/// @return  fraction of the candidates removed, 0 to 1
 double take_out_failures(const LikelyFailures& failures, std::vector<Point>& candidates) {
   const auto all = static_cast<double>(candidates.size());
   return static_cast<double>(std::erase_if(

@@ -14,9 +14,9 @@ namespace repose::calibrate {
 namespace {
 
 constexpr std::size_t kMostOdd = 3;       // of one reading
-constexpr std::size_t kFewestOthers = 8;  // to hold a row against
-constexpr double kSuspectSigmas = 2;      // standard deviations, while it is in the surface
-constexpr double kOddSigmas = 6;          // and once it is not
+constexpr std::size_t kFewestOthers = 8;  // needed to compare a row with
+constexpr double kSuspectSigmas = 2;      // standard deviations, while the surface includes it
+constexpr double kOddSigmas = 6;          // and without it
 constexpr double kOddOfRange = .25;
 
 template <typename Value>
@@ -39,7 +39,7 @@ struct HeldReading {
   bool is_far = false;
 };
 
-/// A reading held against the surface through others.
+/// Compares a reading with the surface through the others.
 HeldReading held_against(const Surrogate& others, const Point& place, double value) {
   const Expectation w = others.at(place, false);
   const double sd = std::hypot(std::sqrt(w.variance), others.few_runs_factor() * others.run_sd());
@@ -56,7 +56,7 @@ HeldReading held_against(const Surrogate& others, const Point& place, double val
   return held;
 }
 
-/// The place of the reading that the surface fits worst; none: it fits all.
+/// The index of the reading that the surface fits worst; std::nullopt: it fits all.
 std::optional<std::size_t> most_suspicious(const Surrogate& surrogate) {
   const std::vector<double> errors = surrogate.standardised_errors();
   if (errors.empty()) return std::nullopt;

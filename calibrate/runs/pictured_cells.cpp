@@ -31,12 +31,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A cell, and what was measured in the file that it names.
+/// A cell, and the measurement of the file that it names.
 struct Cell {
   std::size_t row = 0;
   std::size_t column = 0;
   std::string reading;
-  std::string name;  ///< as it is written
+  std::string name;  ///< as written
   std::string fingerprint;
   vision::ReposeAngle angle;
   std::string fault;
@@ -68,7 +68,7 @@ void measure(Cell& cell, const fs::path& folder, const PicturedReading& how) {
       cell.angle = measure_positions(file, options, told.measuring).angle;
     }
   } catch (const base::InputError& error) {
-    // As the study names them.
+    // Names used in the study.
     static constexpr std::array<base::FieldName, 2> kKeys{
         {{"direction that is up", "key up"}, {"plate's height", "key plate_height"}}};
     cell.fault = base::text_of(error.faults(), kKeys);
@@ -110,13 +110,13 @@ std::vector<Cell> cells_in(const TableStudy& study, const fs::path& folder, cons
   return cells;
 }
 
-/// What was measured of one reading.
+/// Measurements of one reading.
 class Reading {
  public:
   Reading(const Table& table, std::string name, std::string definition)
       : table_(table), name_(std::move(name)), definition_(std::move(definition)) {}
 
-  /// The reading and its standard uncertainty; none: there is no angle.
+  /// The reading and its standard uncertainty; std::nullopt: there is no angle.
   std::optional<std::pair<double, double>> take(const Cell& cell) {
     if (!cell.angle.angle_rad || !cell.angle.uncertainty_rad) {
       refused_.push_back(named(table_, cell, cell.angle.reason));
@@ -194,7 +194,7 @@ PicturedCells measure_pictured_cells(const TableStudy& study, const fs::path& fo
     std::string& text = table.rows[cell.row].cells[cell.column];
     text.clear();
     if (!taken) continue;
-    // With more than three digits behind it no point is taken for one that parts thousands.
+    // With more than three decimals, a point is not mistaken for a thousands separator.
     text = fmt::format("{:.6f}", taken->first);
     if (table.has_decimal_comma) std::ranges::replace(text, '.', ',');
     found.sds[line][cell.reading] = taken->second;

@@ -9,8 +9,8 @@
 #include "calibrate/runs/table_study.h"
 #include "calibrate/statistics/table/table.h"
 
-/// Cells of a table of runs that name a picture of the run's heap, a film of it or a file of its
-/// particles, in place of a number: measured as a bench's pictures are.
+/// Cells of a table of runs that name a picture or film of the run's heap, or a file of its
+/// particles, in place of a number: measured like a bench's pictures.
 namespace repose::calibrate {
 
 struct PicturedCells {
@@ -20,10 +20,10 @@ struct PicturedCells {
   std::vector<std::string> notes;         ///< what was measured, flagged and refused
 };
 
-/// Puts angles in place of the names; where a picture is refused, nothing: the row then has no
+/// Replaces the names by angles, or by nothing if a picture is refused: the row then has no
 /// reading. Flagged ones count, as everywhere.
-/// @param folder  that the names are relative to: the table's
-/// @param faults  are added to: files that cannot be read, of readings that are no angles
+/// @param folder  base of relative names: that of the table
+/// @param faults  appended to: files that cannot be read, or of readings that are not angles
 PicturedCells measure_pictured_cells(const TableStudy& study, const std::filesystem::path& folder,
                                      Table& table, base::Faults& faults);
 

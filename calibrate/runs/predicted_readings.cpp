@@ -60,7 +60,7 @@ ReadingAt reading_at(const LearnedReading& learned_reading, const Point& point) 
   const Expectation w = surrogate.at(point, false);
   const AsinhWarp& warp = surrogate.warp();
   const std::vector<double>& readings = surrogate.training_set().readings;
-  // Where no run was below 0, none will be.
+  // If no run was below 0, no prediction is.
   const double least =
       std::max(observable->least,
                std::ranges::min(readings) < 0 ? -std::numeric_limits<double>::infinity() : 0.);
@@ -71,7 +71,7 @@ ReadingAt reading_at(const LearnedReading& learned_reading, const Point& point) 
     return Interval{readable(reading_of(w.mean - base::kNormal95 * sd)),
                     readable(reading_of(w.mean + base::kNormal95 * sd))};
   };
-  // The noise is known from few runs, and so is its part of a single run's scatter.
+  // The noise is known from few runs, and so is the part of a single run's scatter it causes.
   const double run_sd = surrogate.few_runs_factor() * surrogate.run_sd();
   const AsinhWarp without_noise{warp.warp, 0};
   return {
@@ -101,7 +101,7 @@ KnownRuns known_runs_in(const fs::path& folder) {
   }
   Problem problem = problem_of(record.study, record.grain, record.budget).problem;
   std::vector<Run> runs = in_order(problem, joint->runs);
-  // What is held out was simulated for its prediction, and these runs are not in the result.
+  // What is held out was simulated for its prediction; these runs are not in the result.
   problem.held_out.clear();
   return {.problem = std::move(problem), .runs = std::move(runs)};
 }

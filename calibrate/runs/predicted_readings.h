@@ -7,7 +7,7 @@
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/problem.h"
 
-/// What readings would be at given parameters, by surfaces through runs that are there.
+/// Predicted readings at given parameters, from surfaces through existing runs.
 namespace repose::calibrate {
 
 /// One reading at one place, in its unit.
@@ -19,21 +19,21 @@ struct ReadingAt {
   Interval mean_interval;  ///< 95 %, of the mean of very many
 };
 
-/// A problem and the runs that there are of it.
+/// A problem and its existing runs.
 struct KnownRuns {
   Problem problem;
   std::vector<Run> runs;
-  std::vector<std::string> notes = {};  ///< what was made of them
+  std::vector<std::string> notes = {};  ///< remarks on these
 };
 
-/// Those of a study that was calibrated in simulations of this program.
+/// Those of a study that was calibrated with simulations of this program.
 /// @throws base::InputError  the folder has no result, or that of another study.
 KnownRuns known_runs_in(const std::filesystem::path& folder);
 
-/// Places that a table has in columns of the parameters' names, "contact." at their beginning left
-/// out or not. Other columns are passed over.
-/// @throws base::InputError  every error: columns that are missing, cells that are no numbers, or
-///   places outside the bounds, of which the surfaces know nothing.
+/// Places in a table with columns named after the parameters, with or without the prefix
+/// "contact.". Other columns are skipped.
+/// @throws base::InputError  every error: columns that are missing, cells that are not numbers, or
+///   places outside the bounds, where the surfaces are not valid.
 std::vector<std::vector<double>> places_in(const std::filesystem::path& file,
                                            const std::vector<Parameter>& parameters);
 

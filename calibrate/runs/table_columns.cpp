@@ -58,7 +58,7 @@ std::string listed(const std::vector<std::string>& all, std::string_view between
 
 namespace {
 
-/// What programs and people write beside settings and readings.
+/// Other columns that programs and people write beside settings and readings.
 bool is_bookkeeping(const std::string& column) {
   return is_one_of(
       in_small_letters(column),
@@ -68,7 +68,7 @@ bool is_bookkeeping(const std::string& column) {
        "runtime_s", "seconds",  "hours",  "date",      "timestamp"});
 }
 
-/// What the model is beside its parameters: runs with others are those of another model.
+/// Model settings that are not parameters: runs with different values are of another model.
 bool is_setting(const std::string& column) {
   return is_one_of(in_small_letters(column),
                    {"stiffness", "stiffness_factor", "young", "young_modulus", "young_modulus_pa",
@@ -85,7 +85,7 @@ std::optional<std::string> column_of(const Table& table,
 }
 
 bool holds_numbers(const Table& table, std::size_t place) {
-  constexpr int kFewest = 8;  // runs to learn a reading from
+  constexpr int kFewest = 8;  // required to learn a reading
   int numbers = 0;
   for (const TableRow& row : table.rows) {
     const std::string small = in_small_letters(row.cells[place]);
@@ -102,7 +102,7 @@ bool holds_numbers(const Table& table, std::size_t place) {
 
 namespace {
 
-/// A column's name, and what stands in brackets behind it; no unit: there are no brackets.
+/// A column's name, and the text in brackets after it; empty unit: there are no brackets.
 WantedColumn parted(const std::string& column) {
   for (const auto& [open, close] : {std::pair('[', ']'), {'(', ')'}}) {
     const std::size_t start = column.find(open);
@@ -178,7 +178,7 @@ TableColumns columns_of(const TableStudy& study, const Table& table, base::Fault
         });
     if (is_sd) taken.insert(name);
   }
-  // A column n alone may be anything: particles, seeds, numbers of rows.
+  // A column n alone may be anything: particles, seeds, row numbers.
   if (found.count && found.sd.empty()) {
     found.unused.push_back(*found.count);
     found.count.reset();

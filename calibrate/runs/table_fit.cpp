@@ -51,8 +51,8 @@ StudyIdentity identity_of(const TableStudy& study, const TableRuns& table) {
           .budget_description = {}};
 }
 
-/// What the surface through the runs of a held-out reading expects where the fit finds coefficients
-/// plausible.
+/// Prediction of the surface through the runs of a held-out reading at the coefficients that the
+/// fit finds plausible.
 Prediction predicted(const Problem& problem, const Observable& observable, const Solution& solution,
                      const std::vector<Run>& runs) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
@@ -111,7 +111,7 @@ std::string surfaces_text(const JointFit& fit) {
   return text;
 }
 
-/// The best fit misses a reading by more than chance does in one of a hundred tables.
+/// Whether the best fit misses a reading by more than chance does in one of a hundred tables.
 bool misses_a_reading(const JointFit& fit) {
   constexpr double kNormal99 = 2.576;
   return std::ranges::any_of(fit.observables, [](const FittedObservable& one) {
@@ -153,7 +153,7 @@ void note_odd(const std::vector<OddReading>& odd, std::vector<std::string>& note
   }
 }
 
-/// What fresh runs at the fitted parameters say, where each reading has enough of them.
+/// Adds the results of fresh runs at the fitted parameters, if each reading has enough of them.
 void add_check(const Problem& problem, const JointFit& fit, const FreshRunsAt& fresh_runs_at,
                EngineFacts& engine, JointResult& joint) {
   const auto has_chance = [](const FittedObservable& one) { return one.simulated_sd > 0; };
@@ -204,7 +204,7 @@ void add_check(const Problem& problem, const JointFit& fit, const FreshRunsAt& f
                      .values = values};
 }
 
-/// A parameter that is the same in all rows.
+/// Notes a parameter that is the same in all rows.
 void note_constant(const TableStudy& study, const TableRuns& table,
                    std::vector<std::string>& notes) {
   for (std::size_t j = 0; j < study.parameters.size(); ++j) {
@@ -219,7 +219,7 @@ void note_constant(const TableStudy& study, const TableRuns& table,
   }
 }
 
-/// Bounds that reach far beyond the rows with readings.
+/// Notes bounds that extend far beyond the rows with readings.
 void note_extrapolation(const TableStudy& study, const TableRuns& table,
                         std::vector<std::string>& notes) {
   constexpr double kFar = .1;  // of the bounds' distance
@@ -241,7 +241,7 @@ void note_extrapolation(const TableStudy& study, const TableRuns& table,
   }
 }
 
-/// Where no parameters give the readings, there is no interval of those that do.
+/// If no parameters give the readings, there is no interval of those that do.
 void withdraw_intervals(const Problem& problem, JointFit& fit) {
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
     FittedParameter& parameter = fit.parameters[j];
@@ -302,7 +302,7 @@ std::vector<base::Fault> too_few_places(const Problem& problem, const TableRuns&
 
 namespace {
 
-/// How runs are added that an engine makes.
+/// How to add runs that an engine makes.
 std::string more_runs_text(const EngineFacts& engine) {
   std::string text = "make more runs, with a higher --max-runs";
   if (engine.failed == 0) return text + '.';
@@ -312,7 +312,7 @@ std::string more_runs_text(const EngineFacts& engine) {
                     engine.failed, engine.runs);
 }
 
-/// @param engine  that makes the runs; none: somebody does by hand
+/// @param engine  that makes the runs; std::nullopt: made by hand
 Problem sound_problem_of(const TableStudy& study, const TableRuns& table,
                          const std::optional<EngineFacts>& engine) {
   Problem problem = problem_of(study, table);
@@ -326,7 +326,7 @@ Problem sound_problem_of(const TableStudy& study, const TableRuns& table,
   return problem;
 }
 
-/// The one that studies have which repose simulates itself: a folder is of one or the other.
+/// The same lock as for studies that repose simulates itself: a folder belongs to one or the other.
 base::FolderLock locked(const fs::path& folder) {
   const fs::path file = lock_file_in(folder);
   std::error_code error;
@@ -347,7 +347,7 @@ StudyResult fit_table(const TableStudy& study, const TableRuns& table,
   const std::vector<Run> runs = in_order(problem, table.runs);
   const Solution solution = solve(problem, runs);
   JointFit fit = fit_of(problem, runs, solution, {});
-  // How long a run takes, the table does not say.
+  // The table does not say how long a run takes.
   for (FittedParameter& parameter : fit.parameters) {
     if (parameter.narrowing) parameter.narrowing->hour.reset();
   }
@@ -396,7 +396,7 @@ std::optional<StudyResult> calibrate_table(const TableRequest& request,
   }
   faults.throw_if_any();
   sound_problem_of(*study, *table, request.engine);  // before a folder is made
-  std::optional<base::FolderLock> lock;              // who made the runs holds it already
+  std::optional<base::FolderLock> lock;              // whoever made the runs already holds it
   if (!request.engine) lock.emplace(locked(folder));
   std::optional<StudyResult> result;
   try {

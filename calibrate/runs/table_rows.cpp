@@ -34,7 +34,7 @@ class RowReader {
 
   Names unknown_words() const { return {unknown_.begin(), unknown_.end()}; }
 
-  /// Of readings like "1.837" among others of 1790 to 1980, in a table whose other points are
+  /// For readings like "1.837" among others of 1790 to 1980, in a table whose other points are
   /// decimal ones. They may be of runs that went wrong, so they count.
   std::vector<std::string> notes_of_thousands(const std::vector<RunRow>& rows) const {
     std::vector<std::string> notes;
@@ -87,7 +87,7 @@ class RowReader {
             .fix = std::move(fix)};
   }
 
-  /// Numbers of a column that a row may lack: those that are words are left as 0, and passed over.
+  /// Numeric columns in which a row may lack a value: words are read as 0, and skipped.
   Names sparse_columns() const {
     Names names = columns_.readings;
     for (const auto& [reading, column] : columns_.sd) names.push_back(column);
@@ -98,7 +98,7 @@ class RowReader {
   }
 
   void read_numbers(std::vector<RunRow>& rows) {
-    // What a point or a comma means is told by all numbers together.
+    // The meaning of a point or a comma is determined from all numbers together.
     Table numbers = table_;
     std::vector<NumberColumn> wanted;
     for (const Parameter& parameter : study_.parameters) {
@@ -145,7 +145,7 @@ class RowReader {
     faults_.add_all(cells.all());
   }
 
-  /// An angle of 9999 degrees is a failed run's.
+  /// An angle of 9999 degrees indicates a failed run.
   void check_range(const RunRow& row, const std::string& reading, base::Faults& cells) {
     const auto value = row.reads.at(reading);
     for (const auto* observables : {&study_.measured, &study_.held_out}) {

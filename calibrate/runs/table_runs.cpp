@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
-/// Puts the rows of all tables together.
+/// Combines the rows of all tables.
 class Collector {
  public:
   explicit Collector(const TableStudy& study) : study_(study), readings_(readings_of(study)) {}
@@ -75,7 +75,7 @@ class Collector {
     return {};
   }
 
-  /// A run that failed or is still to be made: alike ones are no copies.
+  /// A run that failed or is still to be made: identical ones are not copies.
   static bool says_nothing(const RunRow& row) {
     return !row.failure.empty() ||
            std::ranges::none_of(row.reads, [](const auto& one) { return one.second.has_value(); });
@@ -85,11 +85,11 @@ class Collector {
     return one.reads == other.reads && one.failures == other.failures;
   }
 
-  /// What rows at one place tell.
+  /// Comparison of the rows at one place.
   struct Repeats {
     std::set<std::size_t> copies;  ///< the same numbers once more
-    bool differ = false;           ///< chance has a part in some
-    int same_seed = 0;             ///< and other readings
+    bool differ = false;           ///< some show random scatter
+    int same_seed = 0;             ///< rows with the same seed but different readings
   };
 
   void compare(const std::vector<std::size_t>& rows, std::size_t i, Repeats& repeats) const {
@@ -108,13 +108,13 @@ class Collector {
     }
   }
 
-  /// Rows at one place are runs with other seeds. The same numbers once more are a copy where
-  /// chance has a part in others; where it has none, they are what a run repeated gives.
+  /// Rows at one place are runs with different seeds. Identical numbers are a copy if others show
+  /// random scatter; otherwise they are what a repeated run gives.
   void number_repeats() {
     std::map<std::vector<double>, std::vector<std::size_t>> by_place;
     for (std::size_t k = 0; k < all_.size(); ++k) by_place[all_[k].values].push_back(k);
     Repeats repeats;
-    // Repeats that a row is the mean of tell it, too.
+    // The repeats that a row is the mean of also show it.
     repeats.differ = std::ranges::any_of(all_, [](const RunRow& row) {
       return std::ranges::any_of(row.sds, [](const auto& one) { return one.second > 0; });
     });
@@ -180,7 +180,7 @@ class Collector {
     if (value == row.reads.end() || !value->second) return std::nullopt;
     run.readings["value"] = *value->second;
     if (const auto own = row.own_sds.find(reading); own != row.own_sds.end()) {
-      run.reading_sd["value"] = own->second;  // of one run, whatever other readings are means of
+      run.reading_sd["value"] = own->second;  // of one run, even if other readings are means
       return run;
     }
     run.repeats = row.repeats;
@@ -246,11 +246,11 @@ class Collector {
   Names readings_;
   Names others_;
   std::vector<RunRow> all_;
-  std::string why_;  ///< the first failed run failed
+  std::string why_;  ///< failure of the first failed run
   TableRuns found_;
 };
 
-/// What became of the columns, where that may not be what was meant.
+/// Notes the use of columns that may not be as intended.
 void note_columns(const Table& table, const RunRows& read, std::vector<std::string>& notes) {
   const TableColumns& columns = read.columns;
   const auto note = [&](const std::string& text) {
@@ -260,7 +260,7 @@ void note_columns(const Table& table, const RunRows& read, std::vector<std::stri
     note("the first column has no name and is taken for the rows' numbers.");
   }
   Names unused = columns.unused;
-  // What repose writes there itself, nobody misses.
+  // Columns that repose writes there itself need no note.
   std::erase_if(unused, [](const std::string& name) { return name == "run" || name == "reason"; });
   if (!unused.empty()) note(fmt::format("not used: {}.", listed(unused)));
   for (const auto& [reading, column] : columns.sd) {
@@ -315,7 +315,7 @@ void take_rows_without_runs(const TableStudy& study, Table& table, std::vector<s
   notes.insert(notes.end(), other.notes.begin(), other.notes.end());
 }
 
-/// Cells are not parted by commas, and some number has one.
+/// Whether cells are not separated by commas, and some number contains one.
 bool writes_decimal_commas(const Table& table) {
   if (table.delimiter == ',') return false;
   return std::ranges::any_of(table.rows, [](const TableRow& row) {
@@ -325,8 +325,8 @@ bool writes_decimal_commas(const Table& table) {
   });
 }
 
-/// The names by which results call the files, wherever they lie: that of the file, with folders
-/// before it where others are called so, too.
+/// The names of the files in results, wherever they are stored: the file name, preceded by folders
+/// if others have the same name.
 Names short_names_of(const std::vector<fs::path>& files) {
   Names names;
   for (const fs::path& file : files) {
@@ -347,12 +347,12 @@ Names short_names_of(const std::vector<fs::path>& files) {
   return names;
 }
 
-/// Tables, one after the other.
+/// Reads tables, one after the other.
 class TablesReader {
  public:
   explicit TablesReader(const TableStudy& study) : study_(study), collector_(study) {}
 
-  /// @param name  by which the result calls it
+  /// @param name  used for it in the result
   void read(const fs::path& file, const std::string& name, NoRows no_rows) {
     found_.texts.push_back(base::read_whole_file(file));
     Table table = parse_table(file.string(), found_.texts.back(), no_rows);
@@ -362,7 +362,7 @@ class TablesReader {
     take_names_without_units(wanted_columns(study_), table, notes, faults);
     if (found_.columns.empty()) {
       found_.columns = table.columns;
-      // Others than the usual ones are told by a line of their own, which rows have not.
+      // Unusual delimiters are declared in a line of their own, which rows do not have.
       found_.delimiter = table.delimiter == '|' ? ';' : table.delimiter;
       found_.has_decimal_comma = writes_decimal_commas(table);
     }
@@ -376,7 +376,7 @@ class TablesReader {
     faults.throw_if_any();
     note_columns(table, read, notes);
     notes.insert(notes.end(), read.notes.begin(), read.notes.end());
-    // Faults tell where the file is; the result is the same wherever it is.
+    // Error messages name the file's location; the result is the same wherever it is.
     const auto shorten = [&](std::string& text) {
       if (text.starts_with(table.name)) text.replace(0, table.name.size(), name);
     };
@@ -390,7 +390,7 @@ class TablesReader {
     collector_.add(name, read.columns, std::move(read.rows));
   }
 
-  /// What is in all of them together.
+  /// Contents of all of them together.
   TableRuns take() {
     TableRuns all = collector_.take();
     constexpr int kMaxRows = 1000;

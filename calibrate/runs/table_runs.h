@@ -10,44 +10,43 @@
 
 namespace repose::calibrate {
 
-/// What became of a row's run.
+/// Outcome of a row's run.
 enum class RowEnd { reading, failed, nothing };
 
-/// What is in tables of runs.
+/// Contents of tables of runs.
 struct TableRuns {
-  /// Of each reading by itself, which is its own experiment: a row gives a run of each that it has
-  /// a number of. Rows that failed are counted, and give none.
+  /// Runs of each reading separately, which is its own experiment: a row gives one run for each
+  /// reading that it has a number of. Rows that failed are counted, and give none.
   std::vector<Run> runs;
-  std::vector<std::string> run_rows;  ///< where each of these stands: "runs.csv:14"
-  /// Columns of numbers that the study does not name, with their runs: what measuring them would
-  /// tell is advised.
+  std::vector<std::string> run_rows;  ///< origin of each of these: "runs.csv:14"
+  /// Columns of numbers that the study does not name, with their runs: the advice says what
+  /// measuring them would reveal.
   std::vector<Offer> others;
-  /// Of all rows within the bounds, whatever became of them.
+  /// Of all rows within the bounds, whatever their outcome.
   std::vector<std::vector<double>> places;
-  std::vector<RowEnd> ends;          ///< of each of these; with one reading that failed: failed
-  std::vector<std::string> files;    ///< without their folders, as far as names tell them apart
+  std::vector<RowEnd> ends;          ///< of each of these; failed if any reading failed
+  std::vector<std::string> files;    ///< without their folders, as far as the names are unique
   std::vector<std::string> columns;  ///< of the first table
   char delimiter = ',';              ///< likewise
-  bool has_decimal_comma = false;    ///< likewise: some number of its is written with one
+  bool has_decimal_comma = false;    ///< likewise: at least one of its numbers has one
   std::vector<std::string> texts;    ///< of the files
-  int rows = 0;                      ///< that count: `places`
+  int rows = 0;                      ///< rows that count: `places`
   int failed = 0;                    ///< of these, with a status or a NaN that says so
-  int without_reading = 0;           ///< and with no reading at all
-  int left_out = 0;                  ///< beside these: outside the bounds, or copies
-  std::vector<std::string> notes;    ///< what was made of the rows, a sentence each
+  int without_reading = 0;           ///< of these, with no reading at all
+  int left_out = 0;                  ///< in addition to these: outside the bounds, or copies
+  std::vector<std::string> notes;    ///< remarks on the rows, a sentence each
 };
 
-/// The rows of tables whose columns are the study's parameters and readings, and beside these, if
-/// they have them:
+/// The rows of tables whose columns are the study's parameters and readings and, optionally:
 ///   - NAME_sd (_std, _stdev), the sd of the runs that a row is the mean of, and n (n_ok, repeats,
-///     seeds, ...), how many they are;
+///     seeds, ...), their number;
 ///   - seed;
-///   - status: a word for failure makes the row one of a failed run.
+///   - status: a word for failure marks the row as a failed run.
 /// A reading may be empty, which says nothing, or NaN, which says that the run failed. Text columns
 /// are not used.
 ///
-/// @throws base::InputError  every error: columns that are missing, cells that are no numbers, each
-/// with its line.
+/// @throws base::InputError  every error: columns that are missing, cells that are not numbers,
+/// each with its line.
 TableRuns read_table_runs(const TableStudy& study, const std::vector<std::filesystem::path>& files,
                           NoRows no_rows = NoRows::refused);
 

@@ -28,12 +28,12 @@ using dem::Section;
 
 constexpr std::uintmax_t kLargestStudy_bytes = 1 << 20;
 constexpr double kMostMeasured = kMaxReading;
-constexpr double kMostParameter = 1e15;  // a modulus in Pa is far below
+constexpr double kMostParameter = 1e15;  // a modulus in Pa is far below this
 constexpr const char* kMeasuredSection = "measured";
 constexpr const char* kMeasuredExample = "aor = { mean = 27, sd = 1.5, n = 10 }";
 constexpr const char* kParameterExample = "sliding_friction = { min = 0.1, max = 0.6 }";
 
-/// Tables come in the order of their names; people mean that of the file.
+/// Tables are sorted by name; users expect the order of the file.
 std::vector<const ConfigValue*> in_file_order(const ConfigValue& table) {
   std::vector<const ConfigValue*> items;
   for (const ConfigValue& item : table.items) items.push_back(&item);
@@ -43,7 +43,7 @@ std::vector<const ConfigValue*> in_file_order(const ConfigValue& table) {
   return items;
 }
 
-/// A column of a table must be able to have it.
+/// A valid name for a column of a table.
 bool is_name(const std::string& name) {
   return !name.empty() && name.front() != ' ' && name.back() != ' ' &&
          std::ranges::none_of(name, [](char letter) { return letter >= 0 && letter < ' '; });
@@ -78,7 +78,7 @@ class Reader {
   }
 
  private:
-  /// What belongs to a study that is simulated.
+  /// Refuses sections of a study that is simulated.
   void refuse_others() {
     for (const char* key :
          {"particle", "wall", "contact", "experiment", "simulation", "uncertainty"}) {
@@ -160,7 +160,7 @@ class Reader {
     (is_held_out ? study_.held_out : study_.measured).push_back(std::move(observable));
   }
 
-  /// Of an angle: how it is measured in pictures of runs.
+  /// For an angle: how it is measured in pictures of runs.
   PicturedReading read_pictured(Section& measured) {
     PicturedReading pictured{.definition = dem::read_definition(measured), .placement = {}};
     const auto up = measured.text("up", "up = \"y\"");
@@ -180,7 +180,7 @@ class Reader {
     return pictured;
   }
 
-  /// One way of saying it, and only one.
+  /// Exactly one way of stating the measurement is allowed.
   void check_ways(Section& measured) {
     for (const char* key : {"pictures", "videos", "scans"}) {
       const ConfigValue* found = measured.value(key);
@@ -253,12 +253,12 @@ class Reader {
     if (values) take_readings(measured, *values, observable);
   }
 
-  /// A table with a column of the reading's name, or with one column.
+  /// Reads a table with a column of the reading's name, or with a single column.
   void read_sheet(Section& measured, Observable& observable) {
     const auto name = measured.text("readings", "readings = \"aor.csv\"");
     if (!name) return;
     const fs::path file = file_named(measured, *measured.value("readings"), *name, files_);
-    if (!fs::exists(file)) return;  // which is an error already
+    if (!fs::exists(file)) return;  // already reported as an error
     study_.sheets.push_back(file);
     try {
       Table table = read_table(file);
@@ -308,7 +308,7 @@ class Reader {
     engine.reject_unknown_keys();
   }
 
-  /// A column is either.
+  /// A name must not be both a parameter and a reading.
   void check_names() {
     for (const std::string& reading : readings_of(study_)) {
       if (std::ranges::find(study_.parameters, reading, &Parameter::name) ==

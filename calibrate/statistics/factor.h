@@ -4,8 +4,8 @@
 
 namespace repose::calibrate {
 
-/// A quantity that is set to several levels: its natural levels (in its own unit) at the coded
-/// levels -1 and +1.
+/// A quantity set to several levels: its natural levels (in its own unit) at the coded levels -1
+/// and +1.
 struct Factor {
   std::string name;
   double low = -1;

@@ -4,7 +4,7 @@
 
 namespace repose::calibrate {
 
-/// What of a table was not used.
+/// Part of a table that was not used.
 struct LeftOut {
   std::string what;  ///< "line 5", "column Run"
   std::string why;   ///< "labelled \"Mean\""

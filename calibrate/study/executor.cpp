@@ -64,7 +64,7 @@ void ThreadExecutor::run(const std::vector<Job>& jobs, const JobDone& done,
   };
   const int workers = std::min(threads_, static_cast<int>(jobs.size()));
   tbb::task_arena arena(std::max(1, workers));
-  // One task a worker, each taking jobs in their order.
+  // One task per worker, each taking jobs in order.
   arena.execute([&] { tbb::parallel_for(0, workers, 1, guarded, tbb::simple_partitioner()); });
 }
 

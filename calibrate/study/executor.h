@@ -8,17 +8,17 @@
 
 #include "calibrate/study/study_simulator.h"
 
-/// By what jobs are simulated: threads of this process, or the processes of an MPI job
-/// (`mpirun -np 64 repose calibrate STUDY.toml`), of which rank 0 hands the jobs out, keeps what
-/// comes back, and works on jobs itself in a second thread; the other ranks only simulate. Where
-/// repose was built without MPI all functions are there, and the process is alone.
+/// Where jobs are simulated: by threads of this process, or by the processes of an MPI job (`mpirun
+/// -np 64 repose calibrate STUDY.toml`). Rank 0 hands out the jobs, saves the results, and also
+/// works on jobs in a second thread; the other ranks only simulate. If repose was built without
+/// MPI, all functions exist and the process is alone.
 namespace repose::calibrate {
 
-/// Hears of each job that is done, in any order, one at a time.
+/// Called for each completed job, in any order, one at a time.
 using JobDone = std::function<void(std::size_t job, const RunResult& result)>;
 
-/// Something that simulates jobs: threads of this process, or processes on many machines. What the
-/// jobs give does not depend on it.
+/// Simulates jobs with threads of this process, or processes on many machines. The results do not
+/// depend on it.
 class Executor {
  public:
   Executor() = default;
@@ -31,14 +31,14 @@ class Executor {
   /// How many jobs it works on at once.
   virtual int workers() const = 0;
 
-  /// Returns when all are done, or soon after `is_interrupted`. Jobs are begun in their order: long
-  /// ones first keeps all workers busy to the end.
-  /// @throws  what simulating a job or hearing of it threw first; the others are interrupted.
+  /// Returns when all are done, or soon after `is_interrupted`. Jobs are started in their order:
+  /// long ones first keeps all workers busy to the end.
+  /// @throws  the first exception from simulating a job or from `done`; the others are interrupted.
   virtual void run(const std::vector<Job>& jobs, const JobDone& done,
                    const std::atomic<bool>& is_interrupted) = 0;
 };
 
-/// Several threads of this process, each with a job of its own.
+/// Several threads of this process, each with its own job.
 class ThreadExecutor : public Executor {
  public:
   ThreadExecutor(const StudySimulator& simulator, int threads)
@@ -57,15 +57,15 @@ class ThreadExecutor : public Executor {
 /// processes.
 bool is_launched_as_rank();
 
-/// False where repose was built without MPI.
+/// False if repose was built without MPI.
 bool has_ranks();
 
-/// MPI from here to the end of the object. Make one only in a launched process.
+/// MPI for the lifetime of the object. Create one only in a launched process.
 class RankSession {
  public:
-  /// @throws std::runtime_error  MPI cannot be used by a thread beside another one.
+  /// @throws std::runtime_error  MPI does not support use from a second thread.
   RankSession();
-  /// Lets the other ranks go, when called on rank 0.
+  /// Releases the other ranks, when called on rank 0.
   ~RankSession();
   RankSession(const RankSession&) = delete;
   RankSession& operator=(const RankSession&) = delete;
@@ -75,7 +75,7 @@ class RankSession {
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
 
-  /// For ranks above 0: simulates what rank 0 sends until it lets go.
+  /// For ranks above 0: simulates what rank 0 sends until released.
   void serve(const StudySimulator& simulator, const std::atomic<bool>& is_interrupted) const;
 
  private:
@@ -98,7 +98,7 @@ class RankExecutor : public Executor {
   const StudySimulator& simulator_;
 };
 
-/// Jobs as text, to be sent to another process. Every number comes back to the last bit.
+/// Jobs as text, to be sent to another process. Every number is restored to the last bit.
 std::string text_of(const Job& job);
 Job job_in(const std::string& text);
 

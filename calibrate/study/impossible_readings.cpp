@@ -12,7 +12,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// What a bench can have read, in the experiment's unit.
+/// Range of possible bench readings, in the experiment's unit.
 dem::Range measurable_range(const dem::Study& study, const dem::ClumpShape& grain,
                             const dem::ExperimentEntry& entry) {
   dem::Model model = dem::model_for(study, &entry);
@@ -22,7 +22,7 @@ dem::Range measurable_range(const dem::Study& study, const dem::ClumpShape& grai
   return range;
 }
 
-/// None known; what is stated of readings that share more than they are is a slip of the unit.
+/// 0 if none is stated; a stated common uncertainty larger than the readings is an error of unit.
 double stated_bias(const std::vector<dem::Systematic>& parts) {
   const auto stated = std::ranges::find(parts, dem::kBiasKey, &dem::Systematic::name);
   return stated == parts.end() ? 0 : stated->sd;
@@ -41,7 +41,7 @@ base::Fault too_large_bias(const dem::Study& study, const std::string& where, do
               "few percent of them."};
 }
 
-/// Readings near 0 may be as uncertain as a hundredth of what there is to read.
+/// Readings near 0 may be as uncertain as a hundredth of the measurable range.
 void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
                 const dem::Measured& measured, const dem::Range& range,
                 std::vector<base::Fault>& errors) {
@@ -64,7 +64,7 @@ void check_bias(const dem::Study& study, const dem::ExperimentEntry& entry,
   }
 }
 
-/// Readings beside the value that are above what they can be.
+/// Additional readings that are above their possible range.
 void find_impossible_readings(const dem::Study& study, const dem::ClumpShape& grain,
                               const dem::ExperimentEntry& entry,
                               const dem::StudyExperiment& described,

@@ -12,7 +12,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// What is wrong with the readings of a run, whoever made it; empty: they can be.
+/// Error in the readings of a run, whoever made it; empty: they are possible.
 std::string fault_of(const RunSpec& spec, const Run& run) {
   if (!run.failure.empty()) return {};
   const dem::ExperimentEntry& entry = spec.entry();
@@ -88,7 +88,7 @@ void JobRunner::simulate(StudyProgress progress, const std::vector<Job>& jobs,
       context_.is_interrupted);
 }
 
-/// Whoever simulates saves its runs, but where its folder is another machine's.
+/// Whoever simulates saves its runs, unless its folder is on another machine.
 void JobRunner::keep(const Job& job, const RunResult& result) const {
   const RunSpec spec = context_.simulator.spec(job);
   if (!context_.folder.find_whole(spec, job.seed)) context_.folder.save(spec, result);

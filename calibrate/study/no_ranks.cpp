@@ -2,7 +2,7 @@
 
 #include "calibrate/study/executor.h"
 
-/// In place of rank_executor.cpp where MPI was not found.
+/// Replaces rank_executor.cpp if MPI was not found.
 namespace repose::calibrate {
 
 bool has_ranks() { return false; }
@@ -10,7 +10,7 @@ bool has_ranks() { return false; }
 RankSession::RankSession() {
   throw std::runtime_error("repose was built without MPI. Fix: start it without mpirun.");
 }
-RankSession::~RankSession() {}  // not of the class: elsewhere it ends MPI
+RankSession::~RankSession() {}  // not defaulted in the class: elsewhere it ends MPI
 
 void RankSession::serve(const StudySimulator&, const std::atomic<bool>&) const {}
 

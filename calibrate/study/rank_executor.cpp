@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kJob = 1, kDone = 2, kError = 3, kRelease = 4;
 
-// MPI's own waiting keeps a core busy, which the simulations need.
+// MPI's own waiting would occupy a core that the simulations need.
 constexpr std::chrono::milliseconds kBetweenLooks{2};
 
 struct Message {
@@ -29,7 +29,7 @@ void send(int rank, int tag, const std::string& text) {
   MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, rank, tag, MPI_COMM_WORLD);
 }
 
-/// What has arrived; none when nothing has.
+/// A message that has arrived; std::nullopt if there is none.
 std::optional<Message> receive() {
   int is_there = 0;
   MPI_Status status;
@@ -55,7 +55,7 @@ RunResult run_of_rank(const std::string& text) {
   }
 }
 
-/// Rank 0 at work on one list of jobs.
+/// Rank 0's processing of one list of jobs.
 class Farm {
  public:
   Farm(const std::vector<Job>& jobs, const JobDone& done, const StudySimulator& simulator,
@@ -79,8 +79,8 @@ class Farm {
  private:
   bool is_stopping() const { return is_interrupted_ || !error_.empty(); }
 
-  /// Those that are at work are waited for also when it is interrupted: a reply nobody takes would
-  /// be taken for one of the next list.
+  /// Waits for busy ranks even when interrupted: an unreceived reply would be mistaken for one of
+  /// the next list.
   bool is_over() const {
     const bool is_all_begun = next_ == jobs_.size() || is_stopping();
     return is_all_begun && busy_ == 0;

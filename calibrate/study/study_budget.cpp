@@ -56,7 +56,7 @@ Budget budget_named(const std::string& name) {
 }
 
 Budget with_affordable_checks(Budget budget, const Problem& problem) {
-  constexpr double kChecks = .5;  // of the seconds of the fit
+  constexpr double kChecks = .5;  // fraction of the seconds of the fit
   constexpr int kFewest = 4, kFewestOfRound = 2, kFew = 12, kFewRounds = 2;
   double dearest_s = 0;
   for (const Experiment& experiment : measured_experiments(problem)) {

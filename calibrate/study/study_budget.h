@@ -14,25 +14,25 @@ struct Budget {
   std::string name;
   std::string description;  ///< "14 minutes of one core for the fit"
   FitSettings settings;
-  int check_rounds = kMaxCheckRounds;  ///< at most; the last is a large one
+  int check_rounds = kMaxCheckRounds;  ///< maximum; the last is a large one
   int round_repeats = 2;               ///< fresh seeds at the best fit while checks still move it
-  int verification_repeats = 3;        ///< in the last check, which the verdicts are made of
-  int family_sets = 2;                 ///< sets of the equivalence family that are checked
-  bool is_full = false;  ///< every run is of the study's own grains, and none is coarse
-  /// All of it is to end within so many minutes, as foreseen before it began (minutes_budget.h).
+  int verification_repeats = 3;        ///< in the last check, which the verdicts are based on
+  int family_sets = 2;                 ///< of the equivalence family that are checked
+  bool is_full = false;                ///< every run has the study's own grains; none is coarse
+  /// The whole study should end within this time, as estimated before it began (minutes_budget.h).
   std::optional<double> minutes = {};
 };
 
 /// "quick", "standard" or "paper". Throws base::InputError for another name.
 Budget budget_named(const std::string& name);
 
-/// The same with no more checks than the budget has time for, where full runs of an experiment cost
-/// so much that it has coarse ones: the last check is of four repeats at least, those before it of
-/// two at least; with fewer than twelve there is one before it at most, and equally good sets are
-/// not checked. Others as they are, and those of minutes, which have theirs.
+/// The same with no more checks than the budget has time for, if full runs of an experiment are so
+/// expensive that it has coarse ones: the last check has at least four repeats, those before it at
+/// least two; with fewer than twelve there is at most one before it, and equally good sets are not
+/// checked. Other budgets are unchanged, as are those of minutes, which plan their own checks.
 Budget with_affordable_checks(Budget budget, const Problem& problem);
 
-/// "20min", the name of a budget of so many minutes, and back: none for another name.
+/// "20min", the name of a budget of that many minutes, and back: std::nullopt for another name.
 std::string name_of_minutes(double minutes);
 std::optional<double> minutes_in(const std::string& budget);
 

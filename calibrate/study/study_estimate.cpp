@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Each experiment is wanted as much as it has coefficients.
+/// Each experiment is weighted by its number of coefficients.
 std::vector<double> needs_of(const std::vector<Experiment>& experiments) {
   std::vector<double> needs;
   for (const Experiment& experiment : experiments) {
@@ -32,7 +32,7 @@ std::vector<double> needs_of(const std::vector<Experiment>& experiments) {
   return needs;
 }
 
-/// Of rounds after the first.
+/// For the rounds after the first.
 std::vector<int> later_runs(const Problem& problem, const std::vector<Experiment>& experiments,
                             std::vector<int> round) {
   std::vector<int> runs(round.size(), 0);
@@ -48,7 +48,7 @@ std::vector<int> later_runs(const Problem& problem, const std::vector<Experiment
   return runs;
 }
 
-/// Wherever the coefficients are, a check has as many jobs.
+/// A check has the same number of jobs wherever the coefficients are.
 std::vector<double> middle_of(const Problem& problem) {
   std::vector<double> middle;
   for (const Parameter& parameter : problem.parameters) {
@@ -57,7 +57,7 @@ std::vector<double> middle_of(const Problem& problem) {
   return middle;
 }
 
-/// Of one experiment, in a check with so many repeats of the dearest.
+/// Runs of one experiment, in a check with `repeats` of the most expensive one.
 int check_runs(const Problem& problem, const std::string& experiment, int repeats) {
   return static_cast<int>(std::ranges::count(
       verification_jobs(problem, middle_of(problem), repeats, 0), experiment, &Job::experiment));
@@ -71,7 +71,7 @@ double run_s_of_all(const Problem& problem, const std::vector<Job>& jobs) {
   return seconds;
 }
 
-/// Of inputs held fixed, wherever the coefficients are.
+/// For inputs held fixed, wherever the coefficients are.
 InputPlan input_plan(const Problem& problem, int repeats) {
   return plan_inputs(problem, verification_jobs(problem, middle_of(problem), repeats, 0));
 }
@@ -92,7 +92,7 @@ void count(Phase phase, int runs, ExperimentEstimate& estimate) {
   estimate.phases[phase] = {.runs = runs, .seconds = runs * estimate.run_s};
 }
 
-/// Of stiffer grains, and then of more spheres.
+/// For stiffer grains, and then for more spheres.
 std::pair<SensitivityPlan, SensitivityPlan> sensitivity_plans(const Problem& problem, int repeats) {
   const std::vector<double> middle = middle_of(problem);
   SensitivityPlan stiffness = plan_sensitivity(problem, AssumedInput::stiffness, middle, repeats);
@@ -101,7 +101,7 @@ std::pair<SensitivityPlan, SensitivityPlan> sensitivity_plans(const Problem& pro
   return {std::move(stiffness), std::move(spheres)};
 }
 
-/// Of the last runs: those of stiffer grains, of grains of more spheres, and of other inputs.
+/// Of the last runs: those of stiffer grains, of grains of more spheres, and with other inputs.
 void count_last_runs(const Problem& problem, int repeats,
                      std::vector<ExperimentEstimate>& estimates) {
   const auto [stiffness, spheres] = sensitivity_plans(problem, repeats);
@@ -222,7 +222,7 @@ std::vector<int> runs_for(const Problem& problem, double seconds) {
   constexpr double kMax = 1e6;
   const std::vector<Experiment> experiments = measured_experiments(problem);
   const std::vector<double> needs = needs_of(experiments);
-  double sum = 0;  // shared as rounds of the fit are, see first_round_jobs
+  double sum = 0;  // shared like rounds of the fit, see first_round_jobs
   for (std::size_t e = 0; e < experiments.size(); ++e) {
     sum += needs[e] * std::sqrt(usual_run_s(experiments[e]));
   }

@@ -12,26 +12,26 @@
 #include "calibrate/experiment/run_spec.h"
 #include "calibrate/study/study_problem.h"
 
-/// What a study will simulate, told before it begins.
+/// What a study will simulate, estimated before it begins.
 namespace repose::calibrate {
 
-/// What it simulates one after the other.
+/// Phases of a study, in order.
 enum class Phase {
   first_round,
   later_rounds,
   equal_sets,  ///< that seem to fit as well as the best one
   checks,      ///< the best fit with fresh seeds
-  held_out,    ///< predictions of it
+  held_out,    ///< predictions of held-out readings
   stiffness,   ///< grains stiffer than the study's
   spheres,     ///< grains of more spheres
-  inputs,      ///< those held fixed, varied
+  inputs,      ///< inputs held fixed, varied
 };
 
 inline constexpr std::array kPhases{Phase::first_round, Phase::later_rounds, Phase::equal_sets,
                                     Phase::checks,      Phase::held_out,     Phase::stiffness,
                                     Phase::spheres,     Phase::inputs};
 
-/// For people: "later rounds".
+/// For users: "later rounds".
 std::string_view name_of(Phase phase);
 
 struct PhaseWork {
@@ -39,8 +39,8 @@ struct PhaseWork {
   double seconds = 0;  ///< by the program's own measure, see Experiment::run_s
 };
 
-/// Of one experiment. A fit that has settled ends earlier, and what it needs most is not known yet:
-/// the fit's numbers are about right in the sum, the others the most there can be.
+/// Of one experiment. A fit that has settled ends earlier, and its greatest needs are not known
+/// yet: the fit's numbers are about right in total, the others are upper limits.
 struct ExperimentEstimate {
   std::string experiment;
   double run_s = 0;  ///< by the program's own measure
@@ -53,35 +53,35 @@ struct ExperimentEstimate {
 
 std::vector<ExperimentEstimate> estimate_of(const Problem& problem, const Budget& asked);
 
-/// All of it in one line, with each phase's share of the work: "at most 291 simulations: first
-/// round 31 (9 %), ...".
+/// All of it in one line, with each phase's share of the work: "at most 291 simulations, with their
+/// shares of the work: first round 31 (9 %), ...".
 std::string foreseen(const std::vector<ExperimentEstimate>& estimates);
 
-/// Work of so many rounds of checks at most, s by the program's own measure, and of what makes the
-/// last of them, or of those before, a large one.
+/// Work of at most `rounds` rounds of checks, the last or an earlier one of which is enlarged, s by
+/// the program's own measure.
 double checks_s(const Problem& problem, const Budget& budget, int rounds);
 
-/// Work of what follows the last check, likewise: predictions of what is held out, stiffer grains,
-/// grains of more spheres, inputs held fixed that are varied.
+/// Work after the last check, likewise: predictions of what is held out, stiffer grains, grains of
+/// more spheres, fixed inputs varied.
 double last_runs_s(const Problem& problem, int repeats);
 
-/// Runs of each experiment that so many seconds buy, in the order of estimate_of; none of those
-/// held out, which come last there.
+/// Runs of each experiment that these seconds buy, in the order of estimate_of; excludes those held
+/// out, which come last there.
 std::vector<int> runs_for(const Problem& problem, double seconds);
 
-/// How far a run of a bulk is that is watched by the clock.
+/// Progress of a timed run of a bulk experiment.
 struct WorkLook {
   double seconds = 0;
   double clump_steps = 0;
 };
 
-/// How long all of it takes, s, by the pace of the second half of the time that was looked at: few
-/// grains at the beginning go faster than the many of later on. None: nothing was done yet.
+/// Estimated total duration, s, from the pace in the second half of the time observed: the few
+/// grains at the beginning run faster than the many later on. std::nullopt: nothing was done yet.
 std::optional<double> foreseen_s(const std::vector<WorkLook>& looks, double all_clump_steps);
 
-/// Makes a run, for `longest_s` at most, and saves nothing. How long all of it takes on a core of
-/// this machine, s: of a bulk that was broken off by the grain steps that it did, of which `run_s`
-/// says how many there are in all; of other experiments by their progress.
+/// Makes a run, for `longest_s` at most, and saves nothing. Returns the estimated total duration on
+/// a core of this machine, s: for an interrupted bulk run from the grain steps it completed and the
+/// total number that `run_s` implies; for other experiments from their progress.
 /// @throws dem::Interrupted  `is_interrupted` became true.
 double timed_run_s(const RunSpec& spec, std::uint64_t seed, double run_s, double longest_s,
                    const std::atomic<bool>& is_interrupted);

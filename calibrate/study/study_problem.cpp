@@ -20,7 +20,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// What a bench could measure: the experiment's own number, and others beside it.
+/// What a bench could measure: the experiment's main reading, and others besides.
 std::vector<std::string> measurable(const dem::ExperimentEntry& entry) {
   std::vector<std::string> names = {"value"};
   for (const dem::Reading& reading : entry.readings) {
@@ -33,7 +33,7 @@ std::string unit_of(const dem::ExperimentEntry& entry, const std::string& readin
   return std::string(reading == "value" ? entry.unit : dem::reading_named(entry, reading).unit);
 }
 
-/// About how long a run takes, s. Coefficients still open do not matter much to it.
+/// Approximate duration of a run, s. Coefficients still open hardly affect it.
 double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
                   const dem::ExperimentEntry& entry) {
   dem::Model model = dem::model_for(study, &entry);
@@ -49,7 +49,7 @@ double run_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
   return entry.cost_s(model, study.experiments.at(&entry).protocol);
 }
 
-/// What part of that goes with the number of spheres.
+/// Fraction of it that scales with the number of spheres.
 double spheres_share(const dem::Study& study, const dem::ClumpShape& grain,
                      const dem::ExperimentEntry& entry) {
   dem::ClumpShape twice = grain;
@@ -62,7 +62,7 @@ bool is_ball(const dem::CalliperSizes& sizes) {
          sizes.tip_fraction == 0;
 }
 
-/// More spheres follow the surface that the study's were made of closer.
+/// More spheres follow the surface that the study's were fitted to more closely.
 GrainSpheres spheres_of(const dem::GrainSource& source, const dem::ClumpShape& grain) {
   const int count = static_cast<int>(grain.spheres.size());
   const auto none_closer = [&](std::string why) {
@@ -108,8 +108,8 @@ std::vector<Parameter> open_parameters(const dem::Study& study) {
   return parameters;
 }
 
-/// Few readings may lie nearer to each other than any of them is known: they scatter by as much at
-/// least. What is assumed of the scatter is that of the grains, and leaves it out.
+/// A few readings may lie closer together than the uncertainty of each: their scatter is at least
+/// that. An assumed scatter is that of the grains, without this uncertainty.
 void count_uncertainty(double of_each, double usual_scatter, Observable& observable) {
   if (observable.sd) observable.sd = std::max(*observable.sd, of_each);
   if (observable.sd || !(of_each > 0) || observable.mean == 0) return;
@@ -125,7 +125,7 @@ void share(const std::vector<dem::Systematic>& parts, Observable& observable) {
   for (const dem::Systematic& part : parts) share({part.name, part.sd, part.note}, observable);
 }
 
-/// Mean, scatter and number of what was measured; the mean is none when nothing was.
+/// Mean, scatter and number of what was measured; without a measurement the mean is 0.
 Observable observable_of(const dem::Measured& measured, double usual_scatter) {
   Observable observable;
   observable.n = measured.count.value_or(1);
@@ -151,14 +151,14 @@ Observable with(const dem::SystematicFraction& systematic, Observable observable
   return observable;
 }
 
-/// What the study states of readings that it need not have yet.
+/// Stated common uncertainty of readings, which the study need not have yet.
 double stated_sd(const std::vector<dem::Systematic>& parts) {
   double sd = 0;
   for (const dem::Systematic& part : parts) sd = std::hypot(sd, part.sd);
   return sd;
 }
 
-/// What a study says of its numbers' uncertainty, for the experiments that were measured.
+/// Uncertainties that a study states for its numbers, for the experiments that were measured.
 std::vector<FixedInput> fixed_inputs_of(const dem::Study& study, const dem::ClumpShape& grain,
                                         const Problem& problem) {
   std::vector<FixedInput> inputs;
@@ -315,10 +315,10 @@ class StudyProblemBuilder {
         entry.name, base::kUsualDefinition.name, base::kUsualDefinition.description));
   }
 
-  /// Of coarse runs, where the budget wants them and they are worth it.
+  /// For coarse runs, if the budget wants them and they are worthwhile.
   std::optional<AssumedInputs> coarse_inputs(const dem::ExperimentEntry& entry,
                                              const dem::Protocol& protocol) const {
-    constexpr double kDecimals = 100;  // to be told in full
+    constexpr double kDecimals = 100;  // rounded so that it can be printed in full
     const auto size = coarse_size(entry, protocol, grain_.shape);
     if (!is_coarse_allowed_ || !size) return std::nullopt;
     return AssumedInputs{.size = std::round(kDecimals * *size) / kDecimals};
@@ -329,13 +329,13 @@ class StudyProblemBuilder {
     return entry.readings_per_run(study_.experiments.at(&entry).protocol);
   }
 
-  /// A study of many grains costs more than a budget is made for.
+  /// A study of many grains costs more than budgets are designed for.
   void allow_a_fit() {
     const Cost least = minimum_cost(made_.problem);
     FitSettings& settings = made_.problem.settings;
     const double enough_s = least_budget_s(made_.problem);
     if (settings.budget_s >= enough_s) return;
-    // Minutes would be those of the core that cost_s is of, not of this machine.
+    // Minutes would be those of the core that cost_s refers to, not of this machine.
     made_.notes.push_back(fmt::format(
         "runs of this study take long: the budget is raised to {:.1f} times as much, the least "
         "that a fit takes: {} simulations in its first round, and over half of their work in later "
@@ -375,7 +375,7 @@ class StudyProblemBuilder {
   const dem::ClumpFile& grain_;
   bool is_coarse_allowed_ = false;
   StudyProblem made_;
-  std::vector<Observable>* into_ = &made_.problem.observables;  ///< those fitted, or held out
+  std::vector<Observable>* into_ = &made_.problem.observables;  ///< fitted, or held out
 };
 
 }  // namespace

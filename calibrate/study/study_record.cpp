@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Names of files need not be UTF-8, JSON must be.
+/// File names need not be UTF-8, but JSON must be.
 std::string json_text(const Json& json) {
   constexpr int kIndent = 2;
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -110,7 +110,7 @@ std::vector<FilmReading> films_in(const Json& json) {
   return films;
 }
 
-/// What its name does not say.
+/// What its name does not specify.
 Json limits_json(const Budget& budget) {
   return {{"minutes", *budget.minutes},
           {"core_s", budget.settings.budget_s},
@@ -198,7 +198,7 @@ StudyIdentity identity_of(const StudyRecord& record) {
 
 namespace {
 
-/// The file, which must be the one that study.json was written with. Earlier versions do not say.
+/// The file, which must be the one that study.json was written with; earlier versions do not say.
 fs::path kept(const fs::path& folder, const char* name, const StudyNotes& notes) {
   const auto fingerprint = notes.fingerprints.find(name);
   if (fingerprint == notes.fingerprints.end()) return folder / name;
@@ -213,7 +213,7 @@ fs::path kept(const fs::path& folder, const char* name, const StudyNotes& notes)
   return folder / name;
 }
 
-/// A file that is there already need not be written: a full disk does not stop what goes on.
+/// An existing identical file is not rewritten: a full disk does not stop a resumed study.
 void keep(const fs::path& file, const std::string& text) {
   if (base::read_file_if_there(file) != text) base::write_whole_file(file, text);
 }

@@ -22,7 +22,7 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kNear = .5;  // of the uncertainty of measurement: a step that hardly matters
+constexpr double kNear = .5;  // of the measurement uncertainty: a smaller step hardly matters
 
 std::vector<double> values_of(const JointFit& fit) {
   std::vector<double> values;
@@ -30,7 +30,7 @@ std::vector<double> values_of(const JointFit& fit) {
   return values;
 }
 
-/// Heaps of fewer grains than the study asks for, since no more fit into the tube.
+/// Heaps of fewer grains than the study requests, because no more fit into the tube.
 void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>& runs) {
   double most = 0, least = std::numeric_limits<double>::infinity();
   for (const Run& run : runs) {
@@ -47,7 +47,7 @@ void note_missing_grains(std::vector<std::string>& notes, const std::vector<Run>
       least, most));
 }
 
-/// Rounds until the fit has settled; false when interrupted.
+/// Makes rounds until the fit has settled; false if interrupted.
 bool run_rounds(const Problem& problem, const Budget& budget, JobRunner& runner,
                 std::vector<Run>& runs) {
   require_sound(problem);
@@ -76,8 +76,8 @@ std::vector<Run> joined(std::vector<Run> runs, const std::vector<Run>& more) {
   return runs;
 }
 
-/// Simulates some of the sets that fit as well as the best, for what the surrogates do not know:
-/// the fit that follows has learned from them. False when interrupted.
+/// Simulates some of the sets that fit as well as the best, to cover what the surrogates do not
+/// know: the fit that follows has learned from them. False if interrupted.
 bool simulate_equivalent_sets(const Problem& problem, const Budget& budget, JobRunner& runner,
                               std::vector<std::vector<double>>& tried, StudyOutcome& outcome) {
   if (budget.family_sets < 1) return true;
@@ -98,7 +98,7 @@ bool simulate_equivalent_sets(const Problem& problem, const Budget& budget, JobR
   return true;
 }
 
-/// The readings at the fitted coefficients are those at the ones checked, as far as it matters.
+/// Whether the readings at the fitted coefficients match those at the checked ones closely enough.
 bool is_near(const JointFit& fit, const PredictedSet& checked) {
   for (std::size_t i = 0; i < fit.observables.size(); ++i) {
     const FittedObservable& fitted = fit.observables[i];
@@ -108,7 +108,7 @@ bool is_near(const JointFit& fit, const PredictedSet& checked) {
   return true;
 }
 
-/// One set of coefficients, checked: as many runs as it was asked for, whenever.
+/// One set of coefficients, checked, with as many runs as requested at any time.
 class Check {
  public:
   Check(const Problem& problem, StudyOutcome& outcome)
@@ -120,7 +120,7 @@ class Check {
     outcome_.checks.clear();
   }
 
-  /// Those of so many repeats that were not simulated yet.
+  /// Jobs of `repeats` repeats that were not simulated yet.
   std::vector<Job> jobs(int repeats) const {
     std::vector<Job> jobs = verification_jobs(problem_, values_, repeats, set_);
     std::erase_if(jobs, [&](const Job& job) {
@@ -129,7 +129,7 @@ class Check {
     return jobs;
   }
 
-  /// Fits again with their runs. Whether that changes hardly anything.
+  /// Refits with these runs. Returns whether that hardly changes anything.
   bool add(const std::vector<Run>& runs, const std::vector<std::vector<double>>& tried) {
     outcome_.checks = joined(std::move(outcome_.checks), runs);
     outcome_.runs = joined(std::move(outcome_.runs), runs);
@@ -149,10 +149,9 @@ class Check {
   const int set_;
 };
 
-/// Simulates the fit with a few fresh seeds and fits again with these runs, until that changes
-/// nothing any more or there were enough rounds; the last of these checks is then made a large one.
-/// Whether bench and simulation agree plays no part in it: a fit is not chosen because it does.
-/// False when interrupted.
+/// Simulates the fit with a few fresh seeds and refits with these runs, until that changes nothing
+/// any more or there were enough rounds; the last of these checks is a large one. Whether bench and
+/// simulation agree plays no part in it: a fit is not chosen because it does. False if interrupted.
 bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runner,
                    const std::vector<std::vector<double>>& tried, StudyOutcome& outcome) {
   const double last_s = last_runs_s(problem, budget.verification_repeats);
@@ -176,8 +175,8 @@ bool fit_and_check(const Problem& problem, const Budget& budget, JobRunner& runn
   }
 }
 
-/// Those of the sets that were simulated and that the fit still takes for as good as the best: with
-/// what their own simulations say.
+/// Keeps the simulated sets that the fit still considers as good as the best, with the results of
+/// their own simulations.
 void judge_family(const Problem& problem, StudyOutcome& outcome) {
   int ruled_out = 0;
   for (std::size_t k = 1; k < outcome.fit.asked.size(); ++k) {
@@ -197,7 +196,7 @@ void judge_family(const Problem& problem, StudyOutcome& outcome) {
                   ruled_out, outcome.fit.asked.size() - 1));
 }
 
-/// Simulates what was held out at coefficients drawn from the fit. False when interrupted.
+/// Simulates what was held out at coefficients drawn from the fit. False if interrupted.
 bool predict(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
   const std::vector<Job> jobs = prediction_jobs(problem, outcome.fit);
   if (jobs.empty()) return true;
@@ -207,17 +206,17 @@ bool predict(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
   return true;
 }
 
-/// What a check of an assumed input is called, and what to do where it says that the input matters.
+/// Names of a check of an assumed input, and what to do if it shows that the input matters.
 struct InputWords {
   std::string stage;
   std::string matters;      ///< "the study's grains are too soft for this reading"
   std::string other;        ///< "with a stiffness_factor of 0.1"
-  std::string fix;          ///< where a reading changes
+  std::string fix;          ///< if a reading changes
   std::string over_budget;  ///< what is not known, and why
-  std::string by_hand;      ///< what to do about that where no budget is larger
+  std::string by_hand;      ///< what to do about that if no budget is larger
 };
 
-/// `value`: of the input that was simulated.
+/// `value`: of the simulated input.
 InputWords words_of(AssumedInput input, const Problem& problem, double value) {
   if (input == AssumedInput::stiffness) {
     return {.stage = "simulating stiffer grains",
@@ -244,19 +243,19 @@ InputWords words_of(AssumedInput input, const Problem& problem, double value) {
       .by_hand = "simulate it at these coefficients with more spheres"};
 }
 
-/// Experiments with other values of assumed inputs, at the coefficients that were checked last.
+/// Experiments with other values of assumed inputs, at the coefficients checked last.
 class InputChecks {
  public:
   InputChecks(const Problem& problem, const Budget& budget, JobRunner& runner,
               StudyOutcome& outcome)
       : problem_(problem), budget_(budget), runner_(runner), outcome_(outcome) {}
 
-  /// Stiffer grains, in softened experiments. False when interrupted.
+  /// Stiffer grains, in softened experiments. False if interrupted.
   bool make_stiffer() {
     return vary(plan(AssumedInput::stiffness), AssumedInput::stiffness, outcome_.stiffness);
   }
 
-  /// Grains of more spheres, where their surface is known. False when interrupted.
+  /// Grains of more spheres, if their surface is known. False if interrupted.
   bool make_finer(const StudySimulator& simulator) {
     ShapeCheck& shape = outcome_.shape;
     shape.spheres = problem_.spheres.count;
@@ -311,7 +310,7 @@ class InputChecks {
   std::vector<Run> runs_;
 };
 
-/// What of the study is known but not exactly, one after the other. False when interrupted.
+/// Varies the inputs that are known inexactly, one after the other. False if interrupted.
 bool vary_inputs(const Problem& problem, JobRunner& runner, StudyOutcome& outcome) {
   std::vector<Job> own;
   for (const Run& run : outcome.checks) own.push_back(run.job);
@@ -327,7 +326,7 @@ bool vary_inputs(const Problem& problem, JobRunner& runner, StudyOutcome& outcom
       if (!runs) return false;
       varied = joined(std::move(varied), *runs);
     } catch (const StoreError&) {
-      throw;  // which says nothing of the changed study
+      throw;  // says nothing about the changed study
     } catch (const base::InputError& error) {
       plan.inputs[k].not_varied = input.experiments;
       outcome.notes.push_back(fmt::format("{} cannot be varied by its uncertainty, {:g} {}: {}",
@@ -340,7 +339,7 @@ bool vary_inputs(const Problem& problem, JobRunner& runner, StudyOutcome& outcom
   return true;
 }
 
-/// Coefficients that are less certain by what was held fixed than by all else, and what is open.
+/// Notes coefficients less certain because of fixed inputs than of all else, and what is open.
 void note_inputs(StudyOutcome& outcome) {
   for (const CombinedEffect& combined : outcome.combined) {
     if (!(combined.effect > combined.half_width)) continue;
@@ -364,7 +363,7 @@ void note_inputs(StudyOutcome& outcome) {
       open));
 }
 
-/// Readings that another value of an assumed input changes.
+/// Notes readings that another value of an assumed input changes.
 void note_sensitivity(const Problem& problem, const Sensitivity& found,
                       std::vector<std::string>& notes) {
   for (const SensitivityCheck& check : found.readings) {
@@ -388,7 +387,7 @@ void note_sensitivity(const Problem& problem, const Sensitivity& found,
   }
 }
 
-/// A fit that its last check has moved by more than that check could miss.
+/// Notes if the last check moved the fit by more than the uncertainty of that check.
 void note_last_step(StudyOutcome& outcome) {
   const PredictedSet& checked = outcome.fit.asked.front();
   std::string moved;
@@ -422,7 +421,7 @@ void note_checks(StudyOutcome& outcome) {
   note_last_step(outcome);
 }
 
-/// All that is simulated and fitted; false when interrupted.
+/// All simulations and fits; false if interrupted.
 bool run_to_the_end(const Problem& problem, const Budget& budget, const StudyContext& context,
                     JobRunner& runner, StudyOutcome& outcome) {
   std::vector<std::vector<double>> tried;
@@ -442,7 +441,7 @@ bool run_to_the_end(const Problem& problem, const Budget& budget, const StudyCon
   }
 }
 
-/// Hands over what the complete rounds say, which takes as long as a fit.
+/// Passes on the results of the complete rounds, which takes as long as a fit.
 void leave(const Problem& problem, const StudyContext& context, const JobRunner& runner,
            const std::vector<Run>& runs) {
   if (!context.leave || runs.empty()) return;

@@ -88,7 +88,7 @@ Run run_of(const Job& job, const RunResult& result) {
   return run;
 }
 
-/// By the number of spheres, and what of the study is changed.
+/// By the number of spheres, and the changed input of the study.
 struct StudySimulator::FinerGrains {
   struct Grain {
     explicit Grain(const dem::ClumpFile& made) : file(made), named(made) {}
@@ -167,7 +167,7 @@ RunSpec StudySimulator::spec(const Job& job) const {
   spec.simulator = simulator_;
   spec.model.stiffness_factor = std::min(1., spec.model.stiffness_factor * job.inputs.stiffness);
   for (std::size_t k = 0; k < names_.size(); ++k) {
-    // An experiment without a part has none of its coefficients.
+    // An experiment without a part has none of the part's coefficients.
     double* coefficient = find_coefficient(names_[k], spec.model);
     if (coefficient != nullptr) *coefficient = job.values.at(k);
   }

@@ -6,7 +6,7 @@
 
 namespace repose::calibrate {
 
-/// How much of a study's work is done, by its reports one after the other.
+/// Completed fraction of a study's work, from its successive reports.
 class StudyWork {
  public:
   void add(const StudyProgress& progress) {
@@ -21,7 +21,7 @@ class StudyWork {
 
   /// Whether the last report began a stage.
   bool is_new_stage() const { return is_new_stage_; }
-  /// 0 where it is not known.
+  /// 0 if it is not known.
   double fraction() const { return fraction_; }
 
  private:

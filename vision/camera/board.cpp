@@ -21,10 +21,10 @@ namespace repose::vision {
 namespace {
 
 constexpr std::size_t kFewestCorners = 6;
-// A corner that lies farther from where the others have it is another thing's.
+// A corner farther than this from where the others predict it belongs to something else.
 constexpr double kAstray = 0.15;  // of a square
 
-/// Adds a marker's black cells; neighbours in a row are one patch, so that no gap shows in print.
+/// Adds a marker's black cells; neighbours in a row form one patch, so that no gap shows in print.
 void add_marker(int id, double x, double y, std::vector<BoardPatch>& patches) {
   const cv::Mat1b cells = marker_cells(id);
   const double side = kMarkerPart / cells.cols;
@@ -39,7 +39,7 @@ void add_marker(int id, double x, double y, std::vector<BoardPatch>& patches) {
   }
 }
 
-/// Those that lie where one plane's view has them.
+/// The corners consistent with the view of one plane.
 std::vector<SeenCorner> agreeing(const std::vector<SeenCorner>& corners) {
   if (corners.size() < kFewestCorners) return {};
   std::vector<cv::Point2d> on_board;
@@ -61,7 +61,7 @@ std::vector<SeenCorner> agreeing(const std::vector<SeenCorner>& corners) {
   return kept.size() < kFewestCorners ? std::vector<SeenCorner>{} : kept;
 }
 
-/// Whether the corners lie on a line: then they tell no plane.
+/// Whether the corners are collinear: if so, they determine no plane.
 bool are_in_line(const std::vector<SeenCorner>& corners) {
   const auto differs = [&](auto coordinate) {
     return std::any_of(corners.begin(), corners.end(), [&](const SeenCorner& corner) {
@@ -158,7 +158,7 @@ void write(cairo_t* pen, double x, double y, const std::string& text) {
   cairo_show_text(pen, text.c_str());
 }
 
-/// In millimetres.
+/// Draws the page, in millimetres.
 void draw_page(cairo_t* pen, const PageSize& page, const std::string& how_to_print) {
   cairo_set_source_rgb(pen, 1, 1, 1);
   cairo_paint(pen);
@@ -191,7 +191,7 @@ cairo_status_t append(void* text, const unsigned char* bytes, unsigned int count
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// What only a lack of memory would bring about.
+/// Only a lack of memory could make this fail.
 void require(cairo_status_t status) {
   if (status == CAIRO_STATUS_SUCCESS) return;
   throw std::runtime_error(
@@ -206,7 +206,7 @@ std::string board_pdf(Paper paper) {
   const Surface surface(cairo_pdf_surface_create_for_stream(append, &pdf, page.width_mm / kPoint_mm,
                                                             page.height_mm / kPoint_mm));
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, "repose board");
-  // Else the time at which it is written.
+  // Otherwise the time of writing.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  "2000-01-01T00:00:00Z");
   const Pen pen(cairo_create(surface.get()));
@@ -235,8 +235,8 @@ Picture board_picture(Paper paper, double pixels_per_inch) {
   cairo_surface_flush(surface.get());
   const unsigned char* pixels_of_page = cairo_image_surface_get_data(surface.get());
   const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
-  // A pixel is 32 bits in the machine's order, blue in the lowest 8: grey, so any byte will do but
-  // the highest.
+  // A pixel is 32 bits in native byte order, blue in the lowest 8: grey, so any byte but the
+  // highest will do.
   cv::Mat target = mat_of(picture);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {

@@ -4,10 +4,10 @@
 
 namespace repose::vision {
 
-/// How a person has put up a board.
+/// How the user has set up a board.
 struct BoardPlacing {
   double square_mm = kBoardSquare_mm;  ///< as printed
-  /// How far it stands behind the plane that is measured; says nothing without the lens.
+  /// Its distance behind the measured plane; meaningless without a lens.
   double board_offset_mm = 0;
 };
 

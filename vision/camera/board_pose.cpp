@@ -16,10 +16,10 @@
 namespace repose::vision {
 namespace {
 
-// Paper is not quite flat and corners that look alike are found alike: no corner is known better.
+// Paper is not quite flat, and similar corners have similar errors: no corner is known better.
 constexpr double kMinDeviation_px = 0.05;
 
-/// The values that the lens's three numbers keep to, and how closely: standard deviations.
+/// Prior values of the lens's three numbers, with their standard deviations.
 struct Prior {
   double log_focal = 0;
   double log_focal_sd = 0;
@@ -49,7 +49,7 @@ Prior prior_of(const std::optional<Lens>& lens, int width, int height) {
           .centre_y_sd = kOffCentre * longest / base::kNormal95};
 }
 
-/// Where a corner is seen, as far as the numbers have it elsewhere [standard deviations].
+/// Distance between a corner as seen and as predicted [standard deviations].
 struct CornerError {
   Point on_board;
   Point place;
@@ -80,7 +80,7 @@ struct PriorError {
   }
 };
 
-/// How far the board's normal is off the camera's axis, aside and up.
+/// Deviation of the board's normal from the camera's axis, horizontally and vertically.
 struct SquareError {
   double deviation;
 
@@ -146,7 +146,7 @@ Minimum minimum_from(const BoardPose::Numbers& start, const std::vector<SeenCorn
   return minimum;
 }
 
-/// The two tilts under which the corners look most alike.
+/// The two tilts for which the corners look most alike.
 std::vector<BoardPose::Numbers> starts_for(const std::vector<SeenCorner>& corners,
                                            const Prior& prior) {
   std::vector<cv::Point3d> on_board;
@@ -186,7 +186,8 @@ double error_of(const BoardPose::Numbers& numbers, const std::vector<SeenCorner>
   return std::sqrt(squares / static_cast<double>(corners.size()));
 }
 
-/// The best of the minima; what a rival that fits nearly as well says is part of the covariance.
+/// The best of the minima; its difference from a rival that fits nearly as well is part of the
+/// covariance.
 Minimum best_of(const std::vector<Minimum>& minima) {
   const auto best = std::min_element(minima.begin(), minima.end(),
                                      [](const auto& a, const auto& b) { return a.cost < b.cost; });

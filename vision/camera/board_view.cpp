@@ -9,15 +9,15 @@
 namespace repose::vision {
 namespace {
 
-// Half-widths of what a person does by eye.
-constexpr double kLean_rad = 1 * kDegree;    // a board stood upright
-constexpr double kPlaced_mm = 10;            // ... where the plane is
+// Half-widths of what is done by eye.
+constexpr double kLean_rad = 1 * kDegree;    // a board set upright
+constexpr double kPlaced_mm = 10;            // ... in its plane
 constexpr double kTurned_rad = 3 * kDegree;  // ... and parallel to it
 
 enum : int { k_origin_x = 3, k_origin_y, k_origin_z };  // of the pose
 
-/// The pose with its origin as x / z, y / z and ln z: where the focal length is not known, its
-/// logarithm and that of the distance vary together by much, and what is seen does not change.
+/// The pose with its origin as x / z, y / z and ln z: if the focal length is unknown, its logarithm
+/// and that of the distance vary strongly together without changing the view.
 BoardPose::Numbers by_distance(const BoardPose::Numbers& pose) {
   BoardPose::Numbers numbers = pose;
   numbers[k_origin_x] /= pose[k_origin_z];
@@ -46,11 +46,11 @@ BoardPose::Covariance slopes_by_distance(const BoardPose::Numbers& pose) {
 
 enum : int { k_lean = BoardPose::kNumbers, k_tilt, k_turn, k_behind, k_inputs };
 
-/// How much of the sheet is left out around the board, in squares: what is printed below it is
-/// part of the sheet.
+/// Margins of the sheet around the board to exclude, in squares: the text printed below the board
+/// is part of the sheet.
 constexpr double kBesideBoard = 1.25, kAbove = 0.6, kIndent = 1.4;
 
-/// What of the board is seen: all of it, or what the heap leaves.
+/// The visible part of the board: all of it, or what the heap does not hide.
 Segment part_seen(const std::vector<SeenCorner>& corners) {
   Segment part{{1e9, 1e9}, {-1e9, -1e9}};
   for (const SeenCorner& corner : corners) {
@@ -91,7 +91,7 @@ HeapView BoardView::view(const Eigen::VectorXd& values) const {
 void BoardView::take_pitch(double pitch_rad) {
   constexpr double kTold_rad = 0.25 * kDegree;
   inputs_.values[k_lean] += pitch_rad - view().pitch_rad();
-  // The corners' own say of it is in the lean now.
+  // The corners' own information on it is now contained in the lean.
   inputs_.covariance(k_lean, k_lean) = std::pow(kTold_rad / base::kNormal95, 2);
 }
 

@@ -10,26 +10,27 @@
 
 namespace repose::vision {
 
-/// Half-widths of what a scale allows for beside what the corners tell.
+/// Half-widths of a scale's errors beyond those of the corners.
 inline constexpr double kPrinted = 0.005;  ///< of a board's printed size
-inline constexpr double kNoLens = 0.02;    ///< beside where it was taken, for distortion unknown
+inline constexpr double kNoLens = 0.02;    ///< relative to the place of the scale, for unknown
+                                           ///< distortion
 
-/// The upright plane that a board in the picture marks: with how well a person puts up a board. It
-/// stands upright within 1 degree, parallel to the plane within 3 degrees, and where it is said to
-/// stand within 10 mm.
+/// The upright plane marked by a board in the picture, including how accurately a board is set up
+/// by hand: upright within 1 degree, parallel to the plane within 3 degrees, and within 10 mm of
+/// its stated distance.
 class BoardView {
  public:
   BoardView(const BoardPose& pose, const BoardPlacing& placing);
 
-  /// What the view is made of, and how.
+  /// The inputs of the view, with their covariance.
   const Inputs& inputs() const { return inputs_; }
   HeapView view(const Eigen::VectorXd& values) const;
   HeapView view() const { return view(inputs_.values); }
 
-  /// The pitch is told: the board leans by what it differs.
+  /// Uses a given pitch: the difference is attributed to a leaning board.
   void take_pitch(double pitch_rad);
 
-  /// A number of the view with its 95 % half-width.
+  /// A value derived from the view, with its 95 % half-width.
   Estimate estimate(const std::function<double(const HeapView&)>& number) const;
 
  private:
@@ -37,7 +38,7 @@ class BoardView {
   double square_mm_ = 0;
 };
 
-/// The four corners of the sheet, or of what of it is seen, in the picture [px].
+/// The four corners of the sheet, or of its visible part, in the picture [px].
 std::vector<Point> sheet_outline(const BoardPose& pose, const std::vector<SeenCorner>& corners);
 
 /// Millimetres per pixel in the view's plane, at a place of the picture and in a direction there.

@@ -7,14 +7,14 @@
 
 namespace repose::vision {
 
-/// A heap's size. Its middle plane is the upright one through its axis that faces the camera; its
-/// ground is level. What does not exist is empty.
+/// A heap's size. Its middle plane is the upright plane through its axis that faces the camera; its
+/// ground is level. Missing sizes are std::nullopt.
 struct HeapSizes {
   std::string reason;                        ///< why there are none
   std::optional<Estimate> mm_per_px;         ///< in the middle plane, where the heap stands
   std::optional<Estimate> height_mm;         ///< of the crest above the ground
-  std::optional<Estimate> base_mm;           ///< from foot to foot; needs both
-  std::optional<Estimate> cone_volume_ml;    ///< of a cone of that height and base
+  std::optional<Estimate> base_mm;           ///< from foot to foot; needs both feet
+  std::optional<Estimate> cone_volume_ml;    ///< of a cone with that height and base
   std::optional<Estimate> left_run_out_mm;   ///< from below the crest to the foot
   std::optional<Estimate> right_run_out_mm;  ///< likewise
 };

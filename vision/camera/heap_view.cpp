@@ -11,7 +11,7 @@
 namespace repose::vision {
 namespace {
 
-/// The direction without its upright part, of length 1.
+/// The direction without its vertical part, normalised.
 Eigen::Vector3d levelled(const Eigen::Vector3d& direction, const Eigen::Vector3d& up) {
   return (direction - direction.dot(up) * up).normalized();
 }
@@ -21,8 +21,8 @@ struct BoardSides {
   Eigen::Vector3d right;
 };
 
-/// The board's directions that are nearest to up and right in the picture: it may hang sideways or
-/// upside down.
+/// The board's axes that are closest to up and right in the picture: it may hang sideways or upside
+/// down.
 BoardSides sides_of(const Eigen::Matrix3d& rotation) {
   const Eigen::Vector3d x = rotation.col(0);
   const Eigen::Vector3d y = rotation.col(1);
@@ -75,8 +75,8 @@ HeapView view_by_scale(const Lens& lens, double mm_per_px, double pitch_rad, dou
 
 Eigen::MatrixXd propagated(const Inputs& inputs,
                            const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& function) {
-  // Steps along the correlation's own directions: along one of several inputs that vary together a
-  // pose may make no sense. Of the correlation, because units differ.
+  // Steps along the eigenvectors of the correlation: a step of one of several correlated inputs
+  // alone may give an impossible pose. The correlation is used because units differ.
   const Eigen::VectorXd deviations = inputs.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   const Eigen::VectorXd weights =
       deviations.unaryExpr([](double sd) { return sd > 0 ? 1 / sd : 0; });

@@ -11,36 +11,36 @@
 
 namespace repose::vision {
 
-/// How a camera sees the upright plane in which a heap's middle lies. Directions as the camera has
-/// them: x right, y down, z along the lens's axis. Lengths in millimetres.
+/// How a camera sees the upright plane through the middle of a heap. Directions in camera
+/// coordinates: x right, y down, z along the lens's axis. Lengths in millimetres.
 struct HeapView {
   double focal_px = 0;
-  Point centre;            ///< where the axis meets the picture [px]
+  Point centre;            ///< where the lens's axis meets the picture [px]
   Eigen::Vector3d up;      ///< away from the ground
   Eigen::Vector3d normal;  ///< of the plane, away from the camera, level
   double distance_mm = 0;  ///< of the plane from the lens, along its normal
 
-  /// Direction in which a point of the picture is seen, 1 along the axis.
+  /// Direction of a point of the picture, 1 along the axis.
   Eigen::Vector3d direction(Point place) const;
-  /// How far the camera looks down.
+  /// Downward pitch of the camera.
   double pitch_rad() const;
-  /// How far the camera is turned about its axis; above 0: the ground's right end lies lower.
+  /// Rotation of the camera about its axis; > 0: the ground's right end is lower.
   double roll_rad() const;
 };
 
-/// How a person has put up a board, as it is meant and by how much it fails.
+/// How a board is set up: nominal values and errors.
 struct BoardStand {
   double square_mm = 0;        ///< as printed
   double board_offset_mm = 0;  ///< how far behind the heap's plane
   double roll_rad = 0;         ///< how far its upper side leans away from the camera
   double tilt_rad = 0;         ///< in its own plane: how far its right end is too low
-  double turn_rad = 0;         ///< about its upright axis, from being parallel to the heap's plane
+  double turn_rad = 0;         ///< about its vertical axis, from parallel to the heap's plane
 };
 
-/// By a board that stands upright, but for those errors, parallel to the heap's plane.
+/// From a board that, apart from those errors, stands upright and parallel to the heap's plane.
 HeapView view_by_board(const BoardPose::Numbers& pose, const BoardStand& stand);
 
-/// By a known scale in the heap's plane at `place`, which faces the camera.
+/// From a known scale in the heap's plane at `place`; the plane faces the camera.
 HeapView view_by_scale(const Lens& lens, double mm_per_px, double pitch_rad, double roll_rad,
                        Point place);
 
@@ -51,7 +51,7 @@ struct Inputs {
 };
 
 /// The covariance of a function's values, to first order: J C J^T with J by central differences of
-/// one standard deviation, so that what bends within it counts as it is. JCGM 102:2011, 6.2.
+/// one standard deviation, so that nonlinearity within that range is included. JCGM 102:2011, 6.2.
 Eigen::MatrixXd propagated(const Inputs& inputs,
                            const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& function);
 

@@ -25,7 +25,7 @@ cv::Vec<double, 5> distortion_of(const Lens& lens) {
   return {lens.k1.value, lens.k2.value, lens.p1.value, lens.p2.value, lens.k3.value};
 }
 
-/// Points around a box, dense enough to follow its curved sides.
+/// Points along a box's outline, dense enough to follow its curved image.
 std::vector<Point> around(const Box& box) {
   constexpr int kSteps = 8;
   std::vector<Point> points;
@@ -84,7 +84,7 @@ Point Lens::corrected(Point place) const {
   if (!is_distorted()) return place;
   const std::vector<cv::Point2d> from = {{place.x - kPixelCentre, place.y - kPixelCentre}};
   std::vector<cv::Point2d> to;
-  // The five rounds that it makes unasked leave hundredths of a pixel in wide pictures.
+  // The default five iterations leave hundredths of a pixel in wide pictures.
   const cv::TermCriteria enough(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 50, 1e-10);
   cv::undistortPoints(from, to, matrix_of(*this), distortion_of(*this), cv::noArray(),
                       matrix_of(*this), enough);
@@ -133,7 +133,8 @@ Lens turned(const Lens& lens, int clockwise_deg) {
     upright.centre_x_px = {before.height - before.centre_y_px.value,
                            before.centre_y_px.uncertainty};
     upright.centre_y_px = before.centre_x_px;
-    // Of Lens's two equations with (-y', x') for (x', y'); the radial part is the same all around.
+    // From Lens's two equations with (-y', x') for (x', y'); the radial part is rotationally
+    // symmetric.
     upright.p1 = before.p2;
     upright.p2 = {-before.p1.value, before.p1.uncertainty};
   }
@@ -151,7 +152,7 @@ void LensCorrection::correct(const cv::Mat& picture, cv::Mat& corrected) const {
     picture.copyTo(corrected);
     return;
   }
-  // Beyond what the camera saw, black would be another thing's.
+  // Beyond what the camera saw, black could be mistaken for an object.
   cv::remap(picture, corrected, to_x_, to_y_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
 }
 

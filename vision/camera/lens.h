@@ -9,7 +9,7 @@
 #include "vision/measure/scale_bar.h"
 #include "vision/picture/picture.h"
 
-/// A camera's lens: how directions become places in its pictures.
+/// A camera's lens: how directions map to places in its pictures.
 namespace repose::vision {
 
 /// A number with the half-width of its 95 % interval; 0: taken as exact.
@@ -31,9 +31,9 @@ struct LensNumber {
 ///     cx, cy   px   centre_x_px, centre_y_px: where the axis meets the picture
 ///     k, p     -    radial and tangential distortion
 ///
-/// Proved by tests/vision/lens_test.cpp against the formula, and by what the renderer draws.
+/// Proved by tests/vision/lens_test.cpp against the formula, and by rendered pictures.
 struct Lens {
-  int width = 0;  ///< of the pictures it holds for [px]
+  int width = 0;  ///< of the pictures it applies to [px]
   int height = 0;
   LensNumber focal_px = {};
   LensNumber centre_x_px = {};
@@ -41,31 +41,31 @@ struct Lens {
   LensNumber k1 = {}, k2 = {}, p1 = {}, p2 = {}, k3 = {};
 
   bool is_distorted() const;
-  /// Where a point of the picture lies in the corrected picture: the one that a lens with the same
-  /// focal length and centre takes, but without distortion. And back.
+  /// Maps a point to the corrected picture, which a lens with the same focal length and centre but
+  /// without distortion would take; seen() is the inverse.
   Point corrected(Point place) const;
   Point seen(Point place) const;
 };
 
-/// The same lens in pictures of that size: the camera's, made larger or smaller as a whole.
-/// @throws base::InputError  the size is no such multiple: cropped, or turned.
+/// The same lens for pictures of another size: the camera's, scaled as a whole.
+/// @throws base::InputError  the size is not a multiple: cropped, or rotated.
 Lens lens_for(const Lens& lens, int width, int height);
 
-/// The same lens in pictures that were turned clockwise after they were taken, by a multiple of 90
-/// degrees: what lay at (x, y) of a picture `height` high lies at (height - y, x) for each 90.
+/// The same lens for pictures rotated clockwise after they were taken, by a multiple of 90 degrees:
+/// the point (x, y) of a picture `height` high moves to (height - y, x) for each 90.
 Lens turned(const Lens& lens, int clockwise_deg);
 
-/// The corrected picture, as large as the picture: its middle stays, straight lines are straight.
+/// The corrected picture, of the same size: its middle stays, straight lines are straight.
 Picture corrected_picture(const Picture& picture, const Lens& lens);
 
-/// What a person has said of the picture, in the corrected one: boxes around where they come to
-/// lie, cut off at the frame.
+/// The user's hints, mapped to the corrected picture: boxes become boxes around their mapped
+/// outline, clipped to the frame.
 MeasureOptions corrected_options(const MeasureOptions& options, const Lens& lens);
 
-/// Two points of the picture where the corrected one has them.
+/// The two points of a scale, mapped to the corrected picture.
 ScaleBar corrected_bar(const ScaleBar& bar, const Lens& lens);
 
-/// A box of the corrected picture in the picture.
+/// Maps a box of the corrected picture back to the original.
 Box seen_box(const Box& box, const Lens& lens);
 
 }  // namespace repose::vision

@@ -6,15 +6,15 @@
 
 namespace repose::vision {
 
-/// OpenCV's pixel centres are whole numbers.
+/// OpenCV's pixel centres are at integers.
 inline constexpr double kPixelCentre = 0.5;
 
-/// Takes a lens's distortion out of pictures of its size, one after the other.
+/// Removes a lens's distortion from successive pictures of its size.
 class LensCorrection {
  public:
   explicit LensCorrection(const Lens& lens);
 
-  /// `corrected` gets memory of its own; what the camera did not see goes on as its edge.
+  /// `corrected` gets its own memory; areas that the camera did not see repeat its edge.
   void correct(const cv::Mat& picture, cv::Mat& corrected) const;
 
  private:

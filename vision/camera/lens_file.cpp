@@ -45,7 +45,7 @@ std::string uncertainty_key_of(const NamedNumber& number) {
 
 constexpr double kLargest = 1e6;
 
-/// Reads the numbers of one camera file; what is wrong with them is collected.
+/// Reads the numbers of one camera file and collects their errors.
 class LensReader {
  public:
   LensReader(const toml::table& table, const fs::path& file) : table_(table), file_(file) {}
@@ -64,7 +64,7 @@ class LensReader {
     return 0;
   }
 
-  /// Of a number that is one: no key is named twice.
+  /// Checks a number that was read; each key is reported once.
   void require(bool holds, const std::string& key, const char* value, const char* rule) {
     const toml::node* node = table_.get(key);
     if (holds || node == nullptr) return;
@@ -100,7 +100,7 @@ class LensReader {
   base::Faults errors_;
 };
 
-/// Of the radial distortion at a distance from the axis.
+/// The largest term of the radial distortion at a given distance from the axis.
 const char* largest_term(const Lens& lens, double r) {
   const double r2 = r * r;
   const std::array<std::pair<const char*, double>, 3> terms = {
@@ -112,7 +112,7 @@ const char* largest_term(const Lens& lens, double r) {
       ->first;
 }
 
-/// Numbers of another camera, or mistyped ones, are possible and change every size and angle.
+/// Numbers of another camera, or mistyped ones, are possible and affect every size and angle.
 void check_plausible(const Lens& lens, LensReader& reader) {
   // Straight lines stay straight up to about 140 degrees; telescopes see a third of a degree.
   constexpr double kWidest = .18, kNarrowest = 170;
@@ -125,11 +125,11 @@ void check_plausible(const Lens& lens, LensReader& reader) {
                  "", "must lie in the picture");
   reader.require(lens.centre_y_px.value >= 0 && lens.centre_y_px.value <= lens.height,
                  "centre_y_px", "", "must lie in the picture");
-  // What distortion does to the picture's farthest corner, and that nothing is seen twice.
+  // Effect of the distortion on the picture's farthest corner; and nothing may be seen twice.
   const double x = std::max(lens.centre_x_px.value, lens.width - lens.centre_x_px.value) / focal;
   const double y = std::max(lens.centre_y_px.value, lens.height - lens.centre_y_px.value) / focal;
   const double corner = std::hypot(x, y);
-  constexpr double kMaxMoved = .6;  // a fisheye lens that is not called one has half of it
+  constexpr double kMaxMoved = .6;  // a fisheye lens not declared as one has half of it
   constexpr int kSteps = 100;
   double before = 0;
   for (int step = 1; step <= kSteps; ++step) {

@@ -18,7 +18,7 @@
 #include "base/units.h"
 #include "vision/camera/lens_correction.h"
 
-/// What is wrong with the fit of a lens, and what to do about it.
+/// What is wrong with the fit of a lens, and how to fix it.
 
 namespace repose::vision {
 
@@ -32,7 +32,7 @@ constexpr double kGoodCoverage = 0.5;
 
 constexpr double kLargestError = 0.0006;  // of the picture's longest side ...
 
-constexpr double kLargestError_px = 1;  // ... but of small ones no less than this
+constexpr double kLargestError_px = 1;  // ... but for small ones no less than this
 
 constexpr double kUncertainFocal = 0.03;  // half-width / value
 
@@ -54,7 +54,7 @@ double largest_error_px(const Lens& lens) {
   return std::max(kLargestError_px, kLargestError * std::max(lens.width, lens.height));
 }
 
-/// Why pictures of several sizes cannot be fitted together; empty: they have one size.
+/// Why pictures of several sizes cannot be fitted together; empty if they have one size.
 std::string sizes_differ(const std::vector<BoardPicture>& pictures,
                          const std::vector<std::size_t>& used) {
   std::map<std::pair<int, int>, std::vector<std::string>> files;
@@ -72,7 +72,7 @@ std::string sizes_differ(const std::vector<BoardPicture>& pictures,
       fmt::join(parts, "; "));
 }
 
-/// Why the fit cannot be used; none: it can.
+/// Why the fit cannot be used; empty if it can.
 std::vector<std::string> reasons_against(const LensFit& fit,
                                          const std::vector<BoardPicture>& pictures) {
   std::vector<std::string> reasons;
@@ -107,7 +107,7 @@ std::vector<std::string> reasons_against(const LensFit& fit,
   return reasons;
 }
 
-/// Adds what a person must look at.
+/// Adds warnings that require a check by the user.
 void warn_of_lens(LensFit& fit, const std::vector<BoardPicture>& pictures) {
   const auto add = [&](const char* code, std::string message) {
     fit.warnings.push_back({code, std::move(message)});
@@ -133,12 +133,12 @@ void warn_of_lens(LensFit& fit, const std::vector<BoardPicture>& pictures) {
   }
 }
 
-constexpr int kFewestInPicture = 12;  // of a picture: a quarter of the board, nearly
+constexpr int kFewestInPicture = 12;  // in a picture: nearly a quarter of the board
 
 using Points = std::vector<cv::Point2f>;
 using Places = std::vector<cv::Point3f>;
 
-/// What is fitted to.
+/// Data for the fit.
 struct Seen {
   std::vector<Places> on_board;
   std::vector<Points> in_picture;
@@ -177,7 +177,7 @@ Seen seen_in(const std::vector<BoardPicture>& pictures, const std::vector<std::s
   return seen;
 }
 
-/// The lens's numbers in the order that OpenCV has them in, but one focal length.
+/// The lens's numbers in OpenCV's order, but with one focal length.
 constexpr std::size_t kLensNumbers = 8;
 using Numbers = std::array<double, kLensNumbers>;  // f, cx, cy, k1, k2, p1, p2, k3
 
@@ -227,7 +227,7 @@ Fit fitted(const Seen& seen, int flags) {
                 k(2),
                 k(3),
                 k(4)};
-  // The two focal lengths are one number, which is counted as the second.
+  // The two focal lengths are one number, which OpenCV stores as the second.
   fit.deviations = {sd(1), sd(2), sd(3), sd(4), sd(5), sd(6), sd(7), sd(8)};
   for (std::size_t i = 0; i < turns.size(); ++i) {
     fit.turns.emplace_back(turns[i].reshape(1, 3));
@@ -237,7 +237,7 @@ Fit fitted(const Seen& seen, int flags) {
   return fit;
 }
 
-/// Up to a constant: n ln(sum of squares) + parameters ln n, of n coordinates.
+/// Up to a constant: n ln(sum of squares) + parameters ln n, for n coordinates.
 double information(const Fit& fit, const Seen& seen, const Model& model) {
   const auto n = static_cast<double>(2 * seen.corners());
   constexpr double kExact_px = 1e-6;
@@ -258,7 +258,7 @@ std::pair<Fit, Model> best_fit(const Seen& seen) {
   return best;
 }
 
-/// Standard deviations by leaving out one picture at a time.
+/// Standard deviations from leaving out one picture at a time.
 Numbers jackknife(const Seen& seen, int flags) {
   const std::size_t n = seen.in_picture.size();
   std::vector<Numbers> all;

@@ -10,15 +10,15 @@
 
 namespace repose::vision {
 
-/// A picture of the board for the fit of its camera's lens.
+/// A picture of the board, for fitting its camera's lens.
 struct BoardPicture {
-  std::string file;  ///< as messages name it
+  std::string file;  ///< as named in messages
   int width = 0;
   int height = 0;
   std::vector<SeenCorner> corners;
 };
 
-/// What the fit says of one picture.
+/// The fit's result for one picture.
 struct FittedPicture {
   int corners = 0;                      ///< seen in it
   bool is_used = false;                 ///< enough of the board is seen
@@ -29,30 +29,30 @@ struct FittedPicture {
 
 struct LensFit {
   MeasureStatus status = MeasureStatus::refused;
-  std::string reason;  ///< when refused: what is wrong and how to mend it
+  std::string reason;  ///< if refused: what is wrong and how to fix it
   std::vector<Warning> warnings;
   Lens lens;                            ///< valid unless refused
   std::optional<double> error_px = {};  ///< root mean square distance of all corners from the fit
   std::optional<double> coverage =
-      {};  ///< part of the picture's area where a board was seen, 0 to 1
+      {};  ///< fraction of the picture's area where a board was seen, 0 to 1
   std::optional<double> turned_rad = {};  ///< largest angle between two boards
-  std::vector<FittedPicture> pictures;    ///< as given
+  std::vector<FittedPicture> pictures;    ///< in the given order
 };
 
-/// Pictures of the board that a fit needs at least.
+/// Minimum number of pictures of the board for a fit.
 inline constexpr int kFewestPictures = 5;
 
 /// Fits the lens to all corners of all pictures together (Zhang (2000), IEEE Trans. Pattern Anal.
-/// 22, 1330-1334, as OpenCV's calibrateCamera has it).
+/// 22, 1330-1334, as in OpenCV's calibrateCamera).
 ///
-/// Of the distortion it takes as many coefficients as lower the Bayesian information criterion
-/// (Schwarz (1978), Ann. Stat. 6, 461-464): none; k1; k1, k2; k1, k2, p1, p2; all five. The others
-/// are 0. Half-widths are the larger of what the corners' scatter makes them and of what leaving
-/// out one picture at a time does (jackknife, Student's t; Efron (1982), The Jackknife, 3.2).
+/// The number of distortion coefficients minimises the Bayesian information criterion (Schwarz
+/// (1978), Ann. Stat. 6, 461-464): none; k1; k1, k2; k1, k2, p1, p2; all five. The others are 0.
+/// Half-widths are the larger of that from the corners' scatter and that from leaving out one
+/// picture at a time (jackknife, Student's t; Efron (1982), The Jackknife, 3.2).
 ///
 /// Refused, with all reasons at once: fewer than kFewestPictures that show the board, different
-/// sizes, boards that all face the same way, too little of the picture covered, corners that lie
-/// too far from where the fit has them, a focal length that remains uncertain.
+/// sizes, boards that all face the same way, too little of the picture covered, corners too far
+/// from the fit, a focal length that remains uncertain.
 /// Proved by tests/vision/lens_fit_test.cpp on drawn boards.
 LensFit fit_lens(const std::vector<BoardPicture>& pictures);
 

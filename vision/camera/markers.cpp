@@ -1,4 +1,4 @@
-// The only file that knows how OpenCV finds markers: by its module aruco, and from 4.7 on by
+// The only file that depends on how OpenCV finds markers: in its module aruco, and from 4.7 on in
 // objdetect, where dictionaries and boards are no longer shared pointers.
 
 #include "vision/camera/markers.h"
@@ -17,9 +17,9 @@
 namespace repose::vision {
 namespace {
 
-constexpr int kCells = 6;  // of a marker's side: 4 and the border
+constexpr int kCells = 6;  // along a marker's side: 4 and the border
 
-// Too small a part of the board to be sure of it.
+// With fewer, the visible part of the board is too small to be certain.
 constexpr int kFewestMarkers = 2;
 
 struct Found {

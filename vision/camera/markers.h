@@ -8,11 +8,11 @@
 
 namespace repose::vision {
 
-/// The cells of a marker, 255 white, with a border of one black cell around them.
+/// The cells of a marker, white is 255, including its border of one black cell.
 cv::Mat1b marker_cells(int id);
 
-/// What the board's detector finds in a grey picture. OpenCV counts the board's corners, unlike all
-/// else, from the outer corner of the top left pixel, as vision/picture/picture.h does.
+/// The board's corners detected in a grey picture. Unlike everything else, OpenCV counts them from
+/// the outer corner of the top left pixel, as vision/picture/picture.h does.
 std::vector<SeenCorner> detected_corners(const cv::Mat1b& grey);
 
 }  // namespace repose::vision

@@ -17,12 +17,12 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kByEye_rad = 2 * kDegree;  // half-width: pitch of a camera taken for level
+constexpr double kByEye_rad = 2 * kDegree;  // half-width: pitch of a camera levelled by eye
 
-constexpr double kUsefulPitch_rad = 3 * kDegree;      // half-width above which it says nothing
-constexpr double kRollTolerance_rad = 1.5 * kDegree;  // of the ground from the board's level
+constexpr double kUsefulPitch_rad = 3 * kDegree;      // half-width above which it is useless
+constexpr double kRollTolerance_rad = 1.5 * kDegree;  // of the ground relative to the board's level
 
-/// The box around it, inside the picture.
+/// The bounding box of an outline, inside the picture.
 std::optional<Box> box_around(const std::vector<Point>& outline, int width, int height) {
   double left = width;
   double top = height;
@@ -77,7 +77,7 @@ void flag(ReposeAngle& angle, const char* code, std::string message) {
   if (angle.status == MeasureStatus::ok) angle.status = MeasureStatus::flagged;
 }
 
-/// Pitch of options that told none: the board's.
+/// Uses the board's pitch if the options have none.
 void take_pitch(const SeenBoard& board, MeasureOptions& options) {
   if (!board.pitch_rad || options.camera_pitch_rad) return;
   options.camera_pitch_rad = board.pitch_rad->value;
@@ -103,7 +103,7 @@ void warn_of_board(const SeenBoard& board, const MeasureOptions& told, ReposeAng
   }
 }
 
-/// A measured heap and all that its sizes follow from.
+/// A measured heap and everything its sizes depend on.
 struct Sizing {
   const Picture& picture;  ///< corrected
   const MeasureOptions& told;
@@ -126,14 +126,14 @@ HeapSizes sizes_by_board(const BoardView& board, const SeenBoard& seen, const Si
       kPrinted, sizing.working_px);
 }
 
-/// By two points alone.
+/// From two points alone.
 HeapSizes sizes_by_bar(const ScaleBar& bar, const Sizing& sizing, const ReposeAngle& angle) {
   Estimate scale = mm_per_px(bar);
   scale.uncertainty = std::hypot(scale.uncertainty, kNoLens * scale.value);
   return sizes_by_scale(angle, scale, sizing.working_px);
 }
 
-/// By two points and a known lens.
+/// From two points and a known lens.
 HeapSizes sizes_by_bar(const ScaleBar& bar, const Lens& lens, const Sizing& sizing,
                        const ReposeAngle& angle) {
   if (!angle.ground_tilt_rad) return sizes_by_scale(angle, mm_per_px(bar), sizing.working_px);

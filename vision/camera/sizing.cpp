@@ -16,13 +16,13 @@
 #include "vision/measure/scale_bar.h"
 #include "vision/measure/working_picture.h"
 
-/// The places of a picture that a heap's sizes follow from, and how well they are known.
+/// The places of a picture that determine a heap's sizes, and how well they are known.
 
 namespace repose::vision {
 
 namespace {
 
-/// The places that a size follows from [px].
+/// The places that determine a size [px].
 struct Marks {
   std::optional<Point> left_foot;
   std::optional<Point> right_foot;
@@ -30,14 +30,14 @@ struct Marks {
   Point below_crest;  ///< on the ground line
 };
 
-/// How far each mark is off, as inputs.
+/// Errors of the marks, as inputs.
 class MarkInputs {
  public:
-  /// Adds them, with the deviations that segmentations leave.
+  /// Adds them, with the typical deviations of segmentations.
   /// @param working_px  see working_pixel()
   MarkInputs(Inputs& inputs, const ReposeAngle& measured, double working_px);
 
-  /// The marks as the inputs' values have them.
+  /// The marks shifted by the inputs' values.
   Marks applied(const Marks& marks, const Eigen::VectorXd& values) const;
 
  private:
@@ -45,7 +45,8 @@ class MarkInputs {
 };
 
 // Where the ground line touches the base, from the axis to the nearest rim, and the half-width of
-// that: a base that bows much is stood on the line through its feet, if no edge is found below.
+// that: if a base bows strongly and no edge is found below it, the ground line goes through its
+// ends.
 constexpr double kFrontPart = 0.75;
 
 constexpr double kFrontPartDeviation = 0.4;
@@ -67,14 +68,14 @@ struct MarkDeviations {
 
 MarkDeviations deviations_of(const ReposeAngle& measured, double working_px) {
   const double grain = measured.grain_px.value_or(0);
-  // Segmentations lose what is thinner than a pixel: of a flat foot more than of a steep one.
+  // Segmentations lose whatever is thinner than a pixel: more of a flat foot than of a steep one.
   const double slope = std::max(0.1, std::tan(measured.angle_rad.value_or(0)));
   return {.foot = std::hypot(working_px / slope, 0.3 * grain),
           .crest = std::hypot(0.5 * working_px, 0.1 * grain),
           .ground = std::hypot(working_px, 0.1 * grain)};
 }
 
-/// Of a heap with a ground line and a crest.
+/// For a heap with a ground line and a crest.
 Marks marks_of(const ReposeAngle& measured) {
   const Segment& ground = *measured.ground;
   const auto shows_foot = [](const Flank& flank) {
@@ -92,8 +93,8 @@ Marks marks_of(const ReposeAngle& measured) {
   return marks;
 }
 
-/// How high the outline's ends lie above the ground line: a round base is widest where its middle
-/// is, and the lowest grains stick out farthest half of their size above the ground [px].
+/// Height of the outline's ends above the ground line: a round base is widest at its middle, and
+/// the lowest grains protrude most at half their size above the ground [px].
 std::optional<double> rise_of_feet(const ReposeAngle& measured, const Marks& marks) {
   if (measured.upper_edge.empty()) return std::nullopt;
   const Segment& ground = *measured.ground;
@@ -115,7 +116,7 @@ std::optional<double> rise_of_feet(const ReposeAngle& measured, const Marks& mar
   return sum / count - measured.grain_px.value_or(0) / 2;
 }
 
-/// Inputs and one more: its number, and room for it.
+/// Appends an input and returns its index.
 Eigen::Index added(Inputs& inputs, double value, double deviation) {
   const Eigen::Index number = inputs.values.size();
   inputs.values.conservativeResize(number + 1);
@@ -144,9 +145,9 @@ Marks MarkInputs::applied(const Marks& marks, const Eigen::VectorXd& values) con
   return here;
 }
 
-/// Where the ground line touches the base: what is usual, and what the outline's ends say, each
-/// with the weight of its variance.
-/// @param rim_px  how much lower than the axis the nearest rim stands in the picture
+/// Where the ground line touches the base: the typical value and that from the outline's ends,
+/// weighted by their inverse variances.
+/// @param rim_px  how much lower than the axis the nearest rim is in the picture
 Estimate front_part_of(const ReposeAngle& measured, const Marks& marks, double rim_px,
                        double working_px) {
   const bool is_bowed = measured.base_bow.value_or(0) > kMuchBowed;
@@ -163,7 +164,7 @@ Estimate front_part_of(const ReposeAngle& measured, const Marks& marks, double r
           1 / std::sqrt(of_usual + of_seen)};
 }
 
-/// Lengths that follow from one set of inputs; those that do not exist are 0.
+/// Lengths that follow from one set of inputs; missing ones are 0.
 struct Lengths {
   double mm_per_px = 0;
   double height = 0;
@@ -178,7 +179,7 @@ struct Lengths {
   }
 };
 
-/// Directions as one sees them who stands upright and looks along the view's plane's normal.
+/// Horizontal and vertical directions, facing along the normal of the view's plane.
 struct Upright {
   Eigen::Vector3d ahead;
   Eigen::Vector3d right;
@@ -234,7 +235,7 @@ Lengths lengths_by_view(const HeapView& view, const Marks& marks, double front_p
   return lengths;
 }
 
-/// Of numbers(): what exists.
+/// Turns numbers() into sizes, as far as they exist.
 HeapSizes described(const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
                     const Marks& marks) {
   const auto estimate = [&](Eigen::Index i) {
@@ -253,7 +254,7 @@ HeapSizes described(const Eigen::VectorXd& values, const Eigen::MatrixXd& covari
 
 double distance_between(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-/// Why a measured heap has no sizes; empty when it has.
+/// Why a measured heap has no sizes; empty if it has.
 std::string reason_against(const ReposeAngle& measured) {
   if (measured.status == MeasureStatus::refused) return "the heap could not be measured.";
   if (!measured.ground || !measured.crest) return "no heap was found.";
@@ -263,7 +264,7 @@ std::string reason_against(const ReposeAngle& measured) {
   }
   const Marks marks = marks_of(measured);
   const double height_px = distance_between(marks.crest, marks.below_crest);
-  constexpr double kFarBelow = 0.3;  // of the height: more than a round base's rim lies lower
+  constexpr double kFarBelow = 0.3;  // of the height: more than a round base's rim can be lower
   if (rise_of_feet(measured, marks).value_or(0) > kFarBelow * height_px) {
     return "the ground line lies far below the heap's foot: it may be another edge, such as a "
            "table's. Fix: draw the ground line.";
@@ -271,11 +272,11 @@ std::string reason_against(const ReposeAngle& measured) {
   return {};
 }
 
-/// As parallel rays have it, but for the rim and how near the camera may be.
+/// Parallel projection, except for the rim and the camera's possible nearness.
 struct PlainView {
   double mm_per_px = 0;
-  double rim_slope = 0;  ///< of the sight to the base, below the horizon
-  double narrowing = 1;  ///< of the base, which a near eye sees wider than it is
+  double rim_slope = 0;  ///< of the line of sight to the base, below the horizon
+  double narrowing = 1;  ///< of the base, which appears wider to a near camera
 };
 
 Lengths lengths_by_scale(const PlainView& view, const Marks& marks, double front_part) {
@@ -295,7 +296,7 @@ Lengths lengths_by_scale(const PlainView& view, const Marks& marks, double front
   return lengths;
 }
 
-/// Slope of the sight to the base, and its half-width.
+/// Slope of the line of sight to the base, with its half-width.
 Estimate rim_slope_of(const ReposeAngle& measured) {
   constexpr double kBowError_rad = 1.5 * kDegree;
   constexpr double kUnseen_rad = 1.5 * kDegree;  // between level and 3 degrees
@@ -347,7 +348,7 @@ HeapSizes sizes_by_scale(const ReposeAngle& measured, const Estimate& mm_per_px,
   sizes.reason = reason_against(measured);
   if (!sizes.reason.empty()) return sizes;
   const Marks marks = marks_of(measured);
-  // 1 of a far camera; of the nearest one R / D less: asin.
+  // 1 for a distant camera; less for the nearest, by R / D: asin.
   const double most = 1 - std::sqrt(1 - 1 / (kNearestCamera * kNearestCamera));
   Inputs all;
   const MarkInputs of_marks(all, measured, working_px);

@@ -10,7 +10,7 @@ struct UncertainAngle {
   double uncertainty_rad = 0;
 };
 
-/// Difference, interval and verdict as AngleDifference says; `same_measurement` as in
+/// Difference, interval and verdict as described at AngleDifference; `same_measurement` as in
 /// CompareOptions.
 AngleDifference angle_difference(const UncertainAngle& first, const UncertainAngle& second,
                                  double margin_rad, bool same_measurement);

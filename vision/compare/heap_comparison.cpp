@@ -91,7 +91,7 @@ void note_angles(HeapComparison& result, const Measured& measured, const Compare
   }
 }
 
-/// Adds the pictures' own warnings, and what the comparison could not do and why.
+/// Adds the pictures' own warnings, and what could not be compared and why.
 void add_notes(HeapComparison& result, const Measured& measured, const CompareOptions& options) {
   for (const int picture : {0, 1}) {
     const ReposeAngle& heap = *measured[static_cast<std::size_t>(picture)];
@@ -118,7 +118,7 @@ struct OutlineScale {
   std::array<double, 2> unit_per_px = {};
 };
 
-/// Empty when the base that is known was not measured.
+/// std::nullopt if the known base was not measured.
 std::optional<double> metres_per_px(const ReposeAngle& measured, const PictureScale& scale) {
   if (scale.from == PictureScale::From::pixel) return scale.length_m;
   const auto shows_foot = [](const Flank& flank) {
@@ -128,7 +128,7 @@ std::optional<double> metres_per_px(const ReposeAngle& measured, const PictureSc
   return scale.length_m / *measured.base_px;
 }
 
-/// Of the sides that are compared [px^2]; nothing when a foot is missing from one of them.
+/// Area of the compared sides [px^2]; std::nullopt if a foot is missing from one of them.
 std::optional<double> compared_area(const Skyline& skyline, const Reach& reach) {
   double area = 0;
   const double from = std::min(0.0, skyline.front().along);
@@ -143,8 +143,8 @@ std::optional<double> compared_area(const Skyline& skyline, const Reach& reach) 
   return area;
 }
 
-/// The given scales; else equal areas of what is compared; else, where a foot is out of the frame
-/// or no side is in both pictures, equal heights. `skylines` are aligned, in px.
+/// The given scales; otherwise equal areas of the compared parts; otherwise, if a foot is out of
+/// the frame or no side is in both pictures, equal heights. `skylines` are aligned, in px.
 OutlineScale outline_scale(const std::array<const ReposeAngle*, 2>& measured,
                            const std::array<Skyline, 2>& skylines, const Reach& reach,
                            const CompareOptions& options) {
@@ -162,13 +162,13 @@ OutlineScale outline_scale(const std::array<const ReposeAngle*, 2>& measured,
 }
 
 constexpr double kWidestShift = 0.25;  // of the wider base
-constexpr int kShiftSteps = 50;        // each way
+constexpr int kShiftSteps = 50;        // in each direction
 constexpr int kShiftHalvings = 12;     // to .0001 % of the base
 
 using Measured = std::array<const ReposeAngle*, 2>;
 using Skylines = std::array<Skyline, 2>;
 
-/// Both heaps on their level ground, their axes at 0.
+/// Both heaps on level ground, with their axes at 0.
 struct Aligned {
   Skylines skylines;  ///< px of each picture
   std::array<double, 2> height = {};
@@ -200,9 +200,9 @@ SkylineDifference difference_on_both(const Skylines& heaps, const Reach& reach) 
   return total;
 }
 
-/// Where the second heap would fit the first one best: the best of equal steps, then between its
-/// neighbours. By the heights' root mean square, as the overlap does not change while one outline
-/// moves inside the other.
+/// Finds the shift at which the second heap fits the first best: the best of equal steps, then
+/// refined between its neighbours. Judged by the rms of the heights, as the overlap does not change
+/// while one outline moves inside the other.
 void find_best_shift(HeapComparison& result, const Skylines& heaps, const Reach& reach) {
   const auto rmse_at = [&](double shift) {
     return difference_on_both({heaps[0], placed(heaps[1], -shift, 1)}, reach).rmse();
@@ -258,7 +258,7 @@ SideComparison compare_side(const Measured& measured, const Skylines& heaps, con
   return result;
 }
 
-/// The angles that are subtracted: of both sides, or of one side alone.
+/// The angles to subtract: of both sides, or of one side alone.
 void compare_angles(HeapComparison& result, const Measured& measured,
                     const CompareOptions& options) {
   const bool left = result.left.angle.has_value();
@@ -277,7 +277,7 @@ void compare_angles(HeapComparison& result, const Measured& measured,
       angle_difference(angles[0], angles[1], options.margin_rad, options.same_measurement);
 }
 
-/// Equal areas were made, so the heights' mean difference is 0 by itself: it says nothing.
+/// Areas were made equal, so the mean difference of heights is 0 by construction and means nothing.
 void forget_made_equal(HeapComparison& result) {
   if (result.unit != LengthUnit::root_area) return;
   result.profile_mean.reset();
@@ -285,7 +285,7 @@ void forget_made_equal(HeapComparison& result) {
   if (result.right.cover == Coverage::none) result.left.profile_mean.reset();
 }
 
-/// Everything that the outlines alone say, in the unit.
+/// All results from the outlines alone, in the unit.
 void compare_outlines(HeapComparison& result, const Measured& measured, const Skylines& heaps,
                       const Reach& reach) {
   for (const std::size_t i : {0, 1}) {

@@ -30,7 +30,7 @@ constexpr double kBandFrom = 0.1;  // of the pictures
 
 constexpr double kBandTo = 0.9;
 
-/// The outlines of a heap's views, in the unit of the comparison, axes at 0.
+/// The outlines of a heap's views, in the unit of comparison, with axes at 0.
 using Outlines = std::vector<Skyline>;
 
 bool is_whole(const ReposeAngle& view) {
@@ -58,7 +58,7 @@ Outlines outlines_of(const SeenHeap& heap, LengthUnit unit, int& left_out) {
   return outlines;
 }
 
-/// Heights of an outline at places that ascend.
+/// Heights of an outline at ascending positions.
 std::vector<double> heights_at(const Skyline& skyline, const std::vector<double>& places) {
   std::vector<double> heights;
   heights.reserve(places.size());
@@ -66,7 +66,7 @@ std::vector<double> heights_at(const Skyline& skyline, const std::vector<double>
   return heights;
 }
 
-/// Of values that are sorted, between neighbours by a straight line.
+/// Quantile of sorted values, linearly interpolated.
 double quantile(const std::vector<double>& sorted, double part) {
   const double rank = part * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(rank);
@@ -127,7 +127,7 @@ bool have_scales(const std::array<const std::vector<SeenHeap>*, 2>& sets) {
   });
 }
 
-/// In metres when every heap has a scale; else each outline is enlarged to the same area.
+/// In metres if every heap has a scale; otherwise each outline is scaled to the same area.
 MeanOutlines mean_outlines(const std::array<const std::vector<SeenHeap>*, 2>& sets) {
   MeanOutlines result;
   result.unit = have_scales(sets) ? LengthUnit::metre : LengthUnit::root_area;
@@ -143,7 +143,7 @@ MeanOutlines mean_outlines(const std::array<const std::vector<SeenHeap>*, 2>& se
 }
 
 constexpr double kUpperTail = 0.975;
-constexpr int kMaxHeaps = 1000;  // more are no advice
+constexpr int kMaxHeaps = 1000;  // more would be unhelpful advice
 
 using Sets = std::array<const std::vector<SeenHeap>*, 2>;
 
@@ -181,7 +181,7 @@ SetOfHeaps summary_of(const std::vector<SeenHeap>& heaps) {
   return set;
 }
 
-/// Of single heaps, where a set of one borrows that of the other.
+/// Scatter of single heaps; a set of one heap borrows that of the other set.
 std::array<double, 2> scatter_of(const std::array<SetOfHeaps, 2>& sets) {
   return {sets[0].sd_rad.value_or(sets[1].sd_rad.value_or(0)),
           sets[1].sd_rad.value_or(sets[0].sd_rad.value_or(0))};
@@ -198,7 +198,8 @@ double half_width(const std::array<double, 2>& sd, const std::array<int, 2>& n) 
   return base::student_t_quantile(kUpperTail, df) * std::sqrt(variance);
 }
 
-/// Of each set, until the interval about the same difference excludes 0 or lies within the margin.
+/// Heaps needed in each set until the interval about the same difference excludes 0 or lies within
+/// the margin.
 std::optional<int> heaps_to_tell(const std::array<double, 2>& sd, double difference_rad,
                                  double margin_rad) {
   const double distance = std::abs(difference_rad);

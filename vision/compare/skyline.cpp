@@ -16,7 +16,7 @@ double between(const OutlinePoint& p, const OutlinePoint& q, double along) {
   return p.height + (q.height - p.height) * (along - p.along) / (q.along - p.along);
 }
 
-/// Heights at both ends of a stretch that no point of the skyline divides.
+/// Heights at both ends of a stretch that contains no point of the skyline.
 struct Ends {
   double from = 0;
   double to = 0;
@@ -31,7 +31,7 @@ Ends heights_over(const Skyline& skyline, double from, double to) {
   return {between(before, *next, from), between(before, *next, to)};
 }
 
-/// Adds a stretch in which a - b does not change sign and both are straight.
+/// Adds a stretch in which a - b does not change sign and both are linear.
 void add_straight(SkylineDifference& total, Ends a, Ends b, double length) {
   const double first = a.from - b.from;
   const double last = a.to - b.to;
@@ -70,7 +70,7 @@ std::vector<double> divisions(const Skyline& a, const Skyline& b, double from, d
   return places;
 }
 
-/// The skyline with points added where it crosses a height.
+/// The skyline with points added where it crosses a given height.
 Skyline divided_at(const Skyline& skyline, double height) {
   Skyline divided;
   for (const OutlinePoint& point : skyline) {
@@ -203,7 +203,7 @@ double squared_distance(const OutlinePoint& point, const OutlinePoint& p, const 
 }
 
 /// Nearest distance to `edge`. Points are sorted by `along`, so the search goes outwards from the
-/// point's own place and ends where the way along the ground alone is longer.
+/// point's own position and ends when the distance along the ground alone is longer.
 double distance_to(const Skyline& edge, const OutlinePoint& point) {
   if (edge.size() == 1) return step_between(point, edge.front());
   const auto above = std::lower_bound(
@@ -243,7 +243,7 @@ EdgeDistance edge_distance(const Skyline& a, const Skyline& b) {
 
 namespace {
 
-// The slab whose centre is the axis, in parts of the height.
+// The slab whose centroid is the axis, as fractions of the height.
 constexpr double kSlabFrom = 0.2;
 constexpr double kSlabTo = 0.8;
 
@@ -252,7 +252,7 @@ PictureLine line_through(const Segment& segment) {
   return {segment.from.y - slope * segment.from.x, slope};
 }
 
-/// On a tilted ground a leap of the edge may run backwards: such points hide under the leap.
+/// On tilted ground a jump of the edge may run backwards: such points are hidden under it.
 Skyline skyline_of(const std::vector<Point>& edge, const GroundFrame& ground) {
   Skyline skyline;
   for (const Point& point : edge) {
@@ -291,7 +291,7 @@ StandingHeap standing_heap(const ReposeAngle& measured) {
   heap.height = *measured.height_px;
   heap.crest = ground.along(*measured.crest);
   const double low = kSlabFrom * heap.height;
-  // Large grains end a heap upright, higher than the slab begins.
+  // Large grains give a heap an upright end, higher than where the slab begins.
   const auto shows_slab = [low](const Flank& flank, const OutlinePoint& end) {
     return !flank.leaves_frame || end.height <= low;
   };

@@ -7,28 +7,28 @@
 #include "vision/compare/heap_comparison.h"
 #include "vision/measure/flank.h"
 
-/// Heaps as their upper edges, in one unit for places and heights.
+/// Heaps represented by their upper edges, with one unit for positions and heights.
 
 namespace repose::vision {
 
-/// A heap's silhouette from the side: all between the ground and straight lines through points
-/// whose `along` rises. Beyond the first and the last point there is nothing.
+/// A heap's silhouette from the side: everything between the ground and straight lines through
+/// points of ascending `along`. Nothing lies beyond the first and the last point.
 using Skyline = std::vector<OutlinePoint>;
 
-/// The silhouette moved by -origin along the ground, then enlarged.
+/// The silhouette moved by -origin along the ground, then scaled.
 Skyline placed(const Skyline& skyline, double origin, double factor);
 
-/// What lies from `from` to `to`; new points where the lines cross the ends.
+/// The part between `from` and `to`; new points where the lines cross these limits.
 Skyline part_of(const Skyline& skyline, double from, double to);
 
-/// 0 beyond its ends.
+/// 0 outside its ends.
 double height_at(const Skyline& skyline, double along);
 
-/// Where the centre of area lies, along the ground, of what the heights `low` and `high` bound.
-/// NaN when the silhouette does not reach above `low`.
+/// Position along the ground of the centroid of the part between the heights `low` and `high`. NaN
+/// if the silhouette does not reach above `low`.
 double slab_centre(const Skyline& skyline, double low, double high);
 
-/// Sums over a stretch of the ground of two heights a and b, exact for the straight lines.
+/// Integrals of two heights a and b over a stretch of the ground, exact for straight lines.
 struct SkylineDifference {
   double length = 0;   ///< of the stretch
   double common = 0;   ///< area of min(a, b)
@@ -47,36 +47,35 @@ struct SkylineDifference {
 
 SkylineDifference difference_of(const Skyline& a, const Skyline& b, double from, double to);
 
-/// How far two upper edges are apart, by the nearest point of the other, not vertically.
+/// Distance between two upper edges, measured to the nearest point of the other, not vertically.
 struct EdgeDistance {
-  double largest = 0;  ///< Hausdorff distance: no point is farther from the other edge
-  double most_of_it =
-      0;  ///< the same for the nearest 95 % of either edge: loose_particles count less
+  double largest = 0;     ///< Hausdorff distance: no point is farther from the other edge
+  double most_of_it = 0;  ///< the same for the nearest 95 % of either edge: outliers count less
 };
 
-/// Both edges are followed in 2,000 equal steps; the largest distance is exact to one of them.
+/// Each edge is sampled in 2,000 equal steps; the largest distance is exact to within one of them.
 ///
 ///     H(A, B) = max(h(A, B), h(B, A)),  h(A, B) = largest (or 95 % quantile) over a in A of the
 ///     distance from a to the nearest point of B
 ///
 /// Source: Huttenlocher, Klanderman & Rucklidge, IEEE Trans. Pattern Anal. Mach. Intell. 15 (1993)
 /// 850-863, sec. 2 and 3 (directed and ranked distances).
-/// Both need a point. Checked by tests/vision/compare_hausdorff_test.cpp.
+/// Both need at least one point. Checked by tests/vision/compare_hausdorff_test.cpp.
 EdgeDistance edge_distance(const Skyline& a, const Skyline& b);
 
-/// A measured heap on level ground [px of its picture], not yet aligned with another one.
+/// A measured heap on level ground [px of its picture], not yet aligned with another.
 struct StandingHeap {
   Skyline skyline;
   double height = 0;
   double crest = 0;            ///< along the ground
-  std::optional<double> axis;  ///< likewise; empty unless both flanks are there
+  std::optional<double> axis;  ///< likewise; std::nullopt unless both flanks exist
   Segment ground;
 
-  /// Point of the picture that lies there on the ground [px].
+  /// Converts a position on the ground to the picture [px].
   Point on_ground(double along) const;
 };
 
-/// Needs a result that is not refused.
+/// Needs a result that was not refused.
 StandingHeap standing_heap(const ReposeAngle& measured);
 
 /// How far the two heaps, aligned and in one unit, can be compared.
@@ -85,7 +84,7 @@ struct Reach {
   /// Whether the picture's edge cuts off that side: [heap][left, right].
   std::array<std::array<bool, 2>, 2> is_cut = {};
 
-  /// The stretch left (ends at 0) or right (begins at 0) of the axis; empty where cover is none.
+  /// The stretch left (ends at 0) or right (begins at 0) of the axis; empty if cover is none.
   std::array<double, 2> stretch(const Skyline& a, const Skyline& b, Side side) const;
 };
 

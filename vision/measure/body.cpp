@@ -15,7 +15,7 @@ constexpr double kSmallestBody = 0.003;  // of the frame's area
 constexpr double kLargestStray = 0.05;   // of the heap's area
 constexpr int kSmallestStray = 9;        // px: smaller specks are noise
 
-/// What lies above the ground line, of a mask whose corner is at `corner` in the picture.
+/// The part above the ground line, of a mask whose corner is at `corner` in the picture.
 cv::Mat1b cut_below(const cv::Mat1b& mask, const PictureLine& ground, cv::Point corner = {}) {
   std::vector<int> first(static_cast<std::size_t>(mask.cols));
   for (int col = 0; col < mask.cols; ++col) {
@@ -46,7 +46,8 @@ int smallest_body(const WorkingPicture& work) {
   return static_cast<int>(kSmallestBody * work.frame.area());
 }
 
-/// The piece that a person has pointed at most; else the largest, which is the first.
+/// The piece with most of the places that the user marked; otherwise the largest, which is the
+/// first.
 int pointed_at(const Pieces& pieces, const std::vector<int>& candidates, const cv::Mat1b& on_heap) {
   int best = candidates.front();
   int most = 0;
@@ -60,7 +61,7 @@ int pointed_at(const Pieces& pieces, const std::vector<int>& candidates, const c
   return best;
 }
 
-/// The heap among the pieces of `mask` above the ground, solid; empty when there is none.
+/// The heap among the pieces of `mask` above the ground, holes filled; empty if there is none.
 cv::Mat1b standing_piece(const cv::Mat1b& mask, const PictureLine& ground,
                          const WorkingPicture& work) {
   const cv::Rect box = cv::boundingRect(mask);
@@ -75,7 +76,7 @@ cv::Mat1b standing_piece(const cv::Mat1b& mask, const PictureLine& ground,
   return piece;
 }
 
-/// On the line that a person has drawn.
+/// On the ground line drawn by the user.
 std::vector<Body> bodies_on_told_ground(const cv::Mat1b& mask, const WorkingPicture& work) {
   const Ground ground{*work.told.ground, work.told.ground_deviation_rad};
   Body body{standing_piece(mask, ground, work), ground};

@@ -19,11 +19,12 @@ struct Body {
 /// Fills holes and cuts off the ground, for each of the few largest regions; largest first.
 std::vector<Body> find_bodies(const Segmentation& segmentation, const WorkingPicture& work);
 
-/// The largest region as it is, holes filled, on a level line through its lowest pixel.
+/// The largest region, unchanged except that holes are filled, on a level line through its lowest
+/// pixel.
 Body largest_region(const Segmentation& segmentation, const WorkingPicture& work);
 
-/// The same heap by another segmentation, on the ground line that is known already. Empty mask when
-/// nothing stands there.
+/// The same heap by another segmentation, on the ground line already known. Empty mask if nothing
+/// stands there.
 Body body_on(const Body& known, const Segmentation& segmentation, const WorkingPicture& work);
 
 /// Small pieces with their feet on the ground, apart from the heap itself.

@@ -17,7 +17,7 @@ namespace repose::vision {
 
 namespace {
 
-/// 0 beside the heap.
+/// 0 outside the heap.
 double height_at(const Profile& profile, double along) {
   const auto after = std::lower_bound(profile.along.begin(), profile.along.end(), along);
   if (after == profile.along.end()) return 0;
@@ -47,20 +47,20 @@ double edge_distance(const Reading& one, const Reading& other) {
 namespace {
 
 constexpr double kNearlyAsGood = 0.85;  // of the best score
-constexpr double kEquallyGood = 0.9;    // of the best score: only chance decides between them
+constexpr double kEquallyGood = 0.9;    // of the best score: a difference due to chance
 constexpr double kClearlyGood = 0.6;    // score above which GrabCut has nothing to add
 
 constexpr double kAgreement_rad = 0.3 * std::numbers::pi / 180;
-constexpr double kFairlyGood = 0.5;  // score below which texture is tried, too, and no foot is seen
+constexpr double kFairlyGood = 0.5;     // score below which texture is tried, and no foot is seen
 constexpr double kHardlyAnEdge = 0.25;  // score of a chance line through clutter
 constexpr double kSeesTheHeap = 0.5;    // of the best score: such a reading knows where the foot is
-constexpr double kCrossed = 0.1;        // of the heap's height above its foot: no error of the line
-constexpr double kSameLine_px = 3;      // grounds that two segmentations see so close are one
+constexpr double kCrossed = 0.1;        // of the heap's height above its foot: not a line's error
+constexpr double kSameLine_px = 3;      // ground lines of two segmentations this close are the same
 constexpr double kSameEdgeTolerance =
-    0.06;  // of the height, root mean square: edges that are not the same one
-constexpr double kCarried = 0.8;  // of a body's columns, under which another one begins
+    0.06;  // of the height, root mean square: above this, edges are different ones
+constexpr double kCarried = 0.8;  // of a body's columns, under which another body begins
 
-/// A body whose sides stand upright: says more than a chance line through clutter.
+/// A body with upright sides: more significant than a chance line through clutter.
 bool is_upright(const Reading& reading) {
   return !reading.has_flank() && (reading.left.vertical || reading.right.vertical);
 }
@@ -72,7 +72,7 @@ double rms(const std::vector<double>& distance) {
   return distance.empty() ? 0 : std::sqrt(sum / static_cast<double>(distance.size()));
 }
 
-/// Of readings, or of their flanks by one definition.
+/// For readings, or for their flanks by one definition.
 template <class Flanks>
 Disagreement disagreement_of(const Flanks& best, const std::vector<const Flanks*>& rivals) {
   const auto of_side = [&](Side side) {
@@ -103,8 +103,8 @@ std::vector<const Reading*> rivals_of(const Reading& best, const std::vector<Rea
   return rivals;
 }
 
-/// One segmentation sees all there is, or several the same sharp edge: another look would tell
-/// nothing new.
+/// One segmentation shows everything, or several show the same sharp edge: a second look would add
+/// nothing.
 bool is_settled(const Reading& best, const std::vector<Reading>& readings) {
   if (best.segmentation.name == kTwoTones) return true;
   const std::vector<const Reading*> rivals = rivals_of(best, readings);
@@ -117,7 +117,7 @@ const Reading& best_of(const std::vector<Reading>& readings) {
                            [](const Reading& a, const Reading& b) { return a.score < b.score; });
 }
 
-/// The one that finds most of what a person has drawn a box around.
+/// The one that finds most of the object in the user's box.
 const Reading& largest_of(const std::vector<Reading>& readings) {
   const auto area = [](const Reading& reading) {
     return reading.body.mask.empty() ? 0 : cv::countNonZero(reading.body.mask);
@@ -126,8 +126,8 @@ const Reading& largest_of(const std::vector<Reading>& readings) {
                            [&](const Reading& a, const Reading& b) { return area(a) < area(b); });
 }
 
-/// Of the readings that only chance ranks, the one whose angle lies in the middle: a flip of their
-/// order then changes little.
+/// Of the readings with scores that differ only by chance, the one with the median angle: swapping
+/// their order then changes little.
 const Reading& middle_of_best(const std::vector<Reading>& readings) {
   const double enough = kEquallyGood * best_of(readings).score;
   std::vector<const Reading*> good;
@@ -142,9 +142,9 @@ const Reading& middle_of_best(const std::vector<Reading>& readings) {
   return lower->score > upper->score ? *lower : *upper;
 }
 
-/// Whether what another reading takes for a heap begins below the middle of the upper one's: the
-/// heap stands on it, or the upper reading sees both.
-/// @param below  the other's body, column by column; of no columns where it has none
+/// Whether the heap of another reading begins below the middle of the upper one's: the heap stands
+/// on it, or the upper reading includes both.
+/// @param below  the other's body, column by column; no columns if it has none
 bool stands_on(const Reading& upper, const Spans& below) {
   if (upper.body.mask.empty() || below.top.empty()) return false;
   const GroundFrame ground(upper.body.ground);
@@ -162,8 +162,8 @@ bool stands_on(const Reading& upper, const Spans& below) {
   return carried >= kCarried * columns;
 }
 
-/// What carries a heap is no heap: a plate seen a little from above has flanks, too, where the
-/// frame or its own corners end it, and often a sharper edge than the grains.
+/// Whatever carries a heap is not a heap: a plate seen from slightly above has flanks, too, where
+/// the frame or its own corners end it, and often a sharper edge than the grains.
 void leave_out_plates(std::vector<Reading>& readings) {
   std::vector<Reading> heaps;
   for (const Reading& reading : readings) {
@@ -177,7 +177,7 @@ void leave_out_plates(std::vector<Reading>& readings) {
   if (!heaps.empty()) readings = std::move(heaps);
 }
 
-/// Whether a reading sees the foot of a heap a little from above: a round base, that bows.
+/// Whether a reading shows the foot of a heap seen from slightly above: a round base, which bows.
 bool sees_round_foot(const Reading& reading) {
   const Ground& ground = reading.body.ground;
   const Profile& profile = reading.profile;
@@ -192,8 +192,8 @@ Point below_crest(const Reading& reading) {
   return GroundFrame(reading.body.ground).picture(profile.along[profile.crest], 0);
 }
 
-/// Lines that cross the heap whose round foot another reading sees are behind it, and so is any
-/// line that lies on one of which another reading says so.
+/// Lines that cross a heap whose round foot another reading shows are behind it, as is any line
+/// close to one that another reading marks as behind.
 void mark_edges_behind(std::vector<Reading>& readings) {
   const std::vector<Reading> witnesses = readings;
   for (const Reading& witness : witnesses) {
@@ -209,8 +209,9 @@ void mark_edges_behind(std::vector<Reading>& readings) {
   }
 }
 
-/// A line that the heap crosses is not what it stands on. It is left out where a reading sees the
-/// heap down to its foot; else the flanks above it are all that is seen, and stand on it.
+/// A line that crosses the heap is not what it stands on. It is left out if a reading shows the
+/// heap down to its foot; otherwise only the flanks above the line are visible, and they are
+/// measured from it.
 void prefer_seen_feet(std::vector<Reading>& readings) {
   mark_edges_behind(readings);
   const bool is_foot_seen =
@@ -225,7 +226,7 @@ bool is_same_line(const PictureLine& a, const PictureLine& b) {
   return a.y_at_0 == b.y_at_0 && a.slope == b.slope;
 }
 
-/// Reads the heap anew, by every segmentation that sees it, on the ground that they share.
+/// Reads the heap again, with every segmentation that shows it, on their common ground.
 void agree_on_ground(std::vector<Reading>& readings, const WorkingPicture& work,
                      const MeasureOptions& options) {
   const Reading& best = best_of(readings);
@@ -248,11 +249,11 @@ void agree_on_ground(std::vector<Reading>& readings, const WorkingPicture& work,
     anew.push_back(stands_there ? std::move(moved)
                                 : read_again(moved, reading.segmentation, work, options));
   }
-  // A reading that only makes sense on its own ground is none; unless all of them say so.
+  // A reading that makes sense only on its own ground is discarded, unless all of them do.
   if (best_of(anew).score >= enough) readings = std::move(anew);
 }
 
-/// Adds readings of segmentations that start from the best body so far.
+/// Adds readings from segmentations that start from the best body so far.
 void look_again(std::vector<Reading>& readings, const WorkingPicture& work,
                 const MeasureOptions& options) {
   const Reading best = best_of(readings);
@@ -269,8 +270,8 @@ void look_again(std::vector<Reading>& readings, const WorkingPicture& work,
   if (again.score > 0) readings.push_back(std::move(again));
 }
 
-/// Between a box and a ground line there is one heap. Readings of another edge than the one traced
-/// there are of something else.
+/// Between a box and a ground line there is one heap. Readings of another edge than the traced one
+/// show something else.
 void keep_what_is_traced(std::vector<Reading>& readings) {
   const auto traced = std::find_if(readings.begin(), readings.end(), [](const Reading& reading) {
     return reading.segmentation.name == kTraced && reading.has_flank();
@@ -284,7 +285,7 @@ void keep_what_is_traced(std::vector<Reading>& readings) {
   readings = std::move(same);
 }
 
-/// The readings that need nothing but the picture and what a person has said.
+/// Readings that need only the picture and the user's hints.
 std::vector<Reading> first_readings(const WorkingPicture& work, const MeasureOptions& options) {
   if (work.tones && work.told.empty()) {
     return {read_heap(two_tone_segmentation(work, *work.tones), work, options)};
@@ -350,7 +351,7 @@ SelectedCandidate choose_reading(const WorkingPicture& work, const MeasureOption
   SelectedCandidate choice;
   choice.is_pointed_at = !work.told.on_heap.empty();
   if (best_of(readings).score < kHardlyAnEdge && work.told.has_box) {
-    choice.best = largest_of(readings);  // says best why there is no angle
+    choice.best = largest_of(readings);  // explains best why there is no angle
     if (!choice.best.has_flank()) return choice;
   } else if (best_of(readings).score < kHardlyAnEdge) {
     const auto upright = std::find_if(readings.begin(), readings.end(), is_upright);

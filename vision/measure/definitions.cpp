@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array kSides{Side::left, Side::right};
 
-/// The least-squares line of another window, all columns alike.
+/// The least-squares line of another window, with equal weights.
 FlankFit window_fit(const FittedEdge& edge, Side side, const std::array<double, 2>& window) {
   FlankFit fit = fit_flank(edge.profile, side,
                            {.window_from = window[0],
@@ -25,8 +25,8 @@ FlankFit window_fit(const FittedEdge& edge, Side side, const std::array<double, 
   return fit;
 }
 
-/// The line from the crest to the foot. Of a side whose foot the frame hides there is none.
-/// @param grain  as the usual line has it
+/// The line from the crest to the foot; truncated if the frame hides the foot.
+/// @param grain  as used for the default line
 FlankFit chord_fit(const FittedEdge& edge, Side side, double grain) {
   const Profile& profile = edge.profile;
   FlankFit fit = window_fit(edge, side, {0, 1});
@@ -46,7 +46,7 @@ FlankFit chord_fit(const FittedEdge& edge, Side side, double grain) {
   return fit;
 }
 
-/// @param fit  of a side
+/// @param fit  function that fits a side
 template <class Fit>
 std::optional<DefinedFlanks> flanks_by(const base::AngleDefinition& definition,
                                        const FittedEdge& edge, Fit fit) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSmoothGrains = 3;           // width of the line that smooths the edge
 constexpr std::size_t kFewestBeside = 4;      // columns on each side that such a line needs
 constexpr double kWidestOfStretch = 1.0 / 3;  // ... of the stretch whose end is sought
-constexpr int kRounds = 4;                    // of moving the line to the place that it gives
+constexpr int kRounds = 4;                    // of moving the line to where it crosses the height
 
 std::size_t first_below(const Descent& d, std::size_t from, double height) {
   while (from < d.smooth.size() && d.smooth[from] >= height) ++from;
@@ -89,15 +89,15 @@ Stretch smoothed_stretch(const Descent& d, double low, double high, double grain
 
 namespace {
 
-constexpr double kSteepest = 3.0;  // tan of 71.6 degrees: nothing loose stands steeper
+constexpr double kSteepest = 3.0;  // tan of 71.6 degrees: no loose grains stand steeper
 constexpr std::size_t kFewestPoints = 12;
-constexpr double kFewestVisible = 0.8;     // of the window that must be in the picture: a shorter
-                                           // stretch is another angle, flanks are hollow
-constexpr double kBlockGrains = 2;         // neighbours within 2 grains are one piece of evidence
-constexpr double kFewestGrains = 5;        // high: a bump longer than such a heap's grain is none
+constexpr double kFewestVisible = 0.8;     // of the window that must be in the picture: as flanks
+                                           // are concave, a shorter stretch has another angle
+constexpr double kBlockGrains = 2;         // neighbours within 2 grains count as one observation
+constexpr double kFewestGrains = 5;        // least height of a heap: caps the grain size
 constexpr double kThinGrains = 2;          // height of a layer
 constexpr double kHighestApron = 1.0 / 3;  // of the height: what begins above is half of the flank
-constexpr double kHalf = 0.5;              // a column that counts less is not said to be fitted
+constexpr double kHalf = 0.5;              // columns with less weight are not reported as fitted
 
 /// Mean distance between upward crossings of the line by the edge: one to two grains.
 double bump_length(const Descent& d, const Stretch& w) {
@@ -109,13 +109,13 @@ double bump_length(const Descent& d, const Stretch& w) {
   return (d.u[w.last - 1] - d.u[w.first]) / std::max(1, crossings);
 }
 
-/// How much each column counts: see fit_flank(). What lies below the window, which other windows
-/// reach into, counts as the window's last column does.
+/// Weight of each column: see fit_flank(). Columns below the window, which other windows reach
+/// into, have the weight of the window's last column.
 /// @param middle  height of the middle of the window `w`
 std::vector<double> weights_of(const Descent& d, const Stretch& w, double middle, double grain) {
-  constexpr double kFullSlope = .4;  // of the upper half's, from which on a column counts in full
+  constexpr double kFullSlope = .4;  // of the upper half's, from which on a column has full weight
   constexpr int kPower = 6;
-  constexpr double kSlopePart = .25;  // of the upper half: a slope is not taken over less
+  constexpr double kSlopePart = .25;  // of the upper half: a slope is not fitted over less
   std::vector<double> weight(d.u.size(), 1);
   const Stretch upper{w.first, rough_stretch(d, middle, d.smooth[w.first]).last};
   if (upper.size() < 2) return weight;
@@ -155,8 +155,8 @@ double weight_at(const FlankFit& fit, std::size_t i) {
   return fit.weight.empty() ? 1 : fit.weight[i];
 }
 
-/// Residuals of the points as far as they count and the robust line believes them; the others are
-/// put on the line. Of an ordinary line all as they are.
+/// Residuals times the points' weights and, for a robust line, its own weights; points without
+/// weight are put on the line.
 std::vector<double> believed_residuals(const FlankFit& fit, bool is_robust) {
   std::vector<double> residual;
   for (std::size_t i = 0; i < fit.along.size(); ++i) {
@@ -167,7 +167,8 @@ std::vector<double> believed_residuals(const FlankFit& fit, bool is_robust) {
   return residual;
 }
 
-/// The heights between which this side is fitted, as far as it has them; else why it has none.
+/// The heights between which this side is fitted, as far as it has them; otherwise why there are
+/// none.
 struct Heights {
   double low = 0;
   double high = 0;
@@ -198,9 +199,9 @@ Heights heights_of(const Descent& d, double crest, bool at_frame, const FlankOpt
   return {low, high, frame_cut, std::nullopt};
 }
 
-/// Scale of what bends the edge as a whole: of its distances from the least-squares line, smoothed
-/// over three grains. A robust line whose scale could fall below it would follow the one or the
-/// other half of a bent flank, and leap between them.
+/// Scale of the edge's overall curvature: of its distances from the least-squares line, smoothed
+/// over three grains. A robust line with a smaller scale would follow one half or the other of a
+/// bent flank, and jump between them.
 double bend_scale(const FlankFit& fit, double spacing) {
   std::vector<double> residual;
   for (std::size_t i = 0; i < fit.along.size(); ++i) {
@@ -213,7 +214,7 @@ double bend_scale(const FlankFit& fit, double spacing) {
   return kMadToSigma * median(smooth, fit.weight);
 }
 
-/// Both lines through the window's points, and how they scatter.
+/// Both lines through the window's points, and their scatter.
 void fit_lines(FlankFit& fit, const Descent& d, const Stretch& w, const std::vector<double>& weight,
                double spacing, bool is_robust) {
   const auto part = [&](const std::vector<double>& all) {
@@ -265,7 +266,7 @@ void add_other_windows(FlankFit& fit, const Descent& d, double crest,
   }
 }
 
-/// What the line would be if an apron counted in full, and where it begins.
+/// The line if an apron had full weight, and where the apron begins.
 void add_apron(FlankFit& fit, const Descent& d, const Stretch& w, double crest, double spacing) {
   if (fit.weight.empty() || fit.weight.back() == 1) return;
   FlankFit with = fit;
@@ -300,8 +301,8 @@ double mean_angle_rad(const FlankFit& left, const FlankFit& right) {
 }
 
 double FlankFit::sure_bend_rad() const {
-  // The standard error of the halves' difference is four of the line's: 2^1.5 for half the length,
-  // times the root of 2 for two. Two of those are taken for chance.
+  // The standard error of the halves' difference is four times the line's: 2^1.5 for half the
+  // length, times the root of 2 for two. Up to two of those are attributed to chance.
   constexpr double kHalvesPerWhole = 4, kByChance = 2;
   const double chance = kByChance * kHalvesPerWhole * fit_error_rad;
   return std::sqrt(std::max(0.0, bend_rad * bend_rad - chance * chance));
@@ -320,7 +321,7 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
   fit.window_from = heights.low / crest;
   fit.window_to = heights.high / crest;
   const Stretch rough = rough_stretch(d, heights.low, heights.high);
-  // An apron's bumps are longer: what may be one is left out.
+  // An apron's bumps are longer: the part that may be one is left out.
   const Stretch upper =
       rough_stretch(d, std::max(heights.low, kHighestApron * crest), heights.high);
   const Stretch& bumpy = upper.size() < kFewestPoints ? rough : upper;
@@ -334,7 +335,7 @@ FlankFit fit_flank(const Profile& profile, Side side, const FlankOptions& option
     weight = weights_of(d, w, middle, fit.grain);
   }
   fit_lines(fit, d, w, weight, spacing, options.is_robust);
-  // A wall with a plate before it, of which all but the wall was taken for an apron.
+  // A wall with a plate in front, of which all but the wall was treated as an apron.
   if (-fit.least_squares.slope > kSteepest) return upright_end("this side falls off vertically");
   add_fit_error(fit, spacing, options);
   add_other_windows(fit, d, crest, weight);

@@ -10,15 +10,16 @@ namespace repose::vision {
 namespace {
 
 constexpr int kLongestLag = 60;
-constexpr double kElbow = 0.2;  // of the steepest fall, under which the pattern has ended
+constexpr double kElbow = 0.2;  // of the steepest fall, below which the pattern has ended
 constexpr double kDiameterPerElbow = 1.25;
-constexpr double kPackedPerElbow = 1.7;  // when it ends below zero: light grains beside dark gaps
+constexpr double kPackedPerElbow = 1.7;  // if it ends below zero: light grains beside dark gaps
 constexpr double kPackedDip = -0.05;
-constexpr double kFaintest = 1.0;  // variance of lightness (L 0 to 100) that is a pattern
-constexpr int kTiles = 8;          // of the body's height: a pattern of grains is all over the body
-constexpr double kPatterned = 0.5;  // of the tiles; some specks are none
+constexpr double kFaintest = 1.0;   // least variance of lightness (L 0 to 100) of a pattern
+constexpr int kTiles = 8;           // of the body's height: grains' pattern covers all of it
+constexpr double kPatterned = 0.5;  // of the tiles; a few specks are not a pattern
 
-/// Sum of products of the pattern with itself `lag` pixels to the right and below, both inside.
+/// Mean product of the pattern with itself `lag` pixels to the right and below, both inside; 0 for
+/// 100 pairs or fewer.
 double correlation(const cv::Mat1f& pattern, const cv::Mat1f& inside, int lag) {
   double products = 0;
   double pairs = 0;
@@ -33,7 +34,7 @@ double correlation(const cv::Mat1f& pattern, const cv::Mat1f& inside, int lag) {
   return pairs > 100 ? products / pairs : 0;
 }
 
-/// Whether the pattern is all over the body, not only a speck here and there.
+/// Whether the pattern covers the whole body, not just a speck here and there.
 bool is_everywhere(const cv::Mat1f& pattern, const cv::Mat1f& inside) {
   const int side = std::max(8, pattern.rows / kTiles);
   int tiles = 0;
@@ -62,7 +63,7 @@ std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& bo
   if (light_steps(lightness, core).is_silhouette()) return std::nullopt;
   cv::Mat1f inside;
   core.convertTo(inside, CV_32F, 1 / 255.0);
-  // The local mean over the body alone: what lies outside must not shine in.
+  // The local mean over the body alone: pixels outside must not influence it.
   const double coarse_px = std::max(2.0, box.height / 8.0);
   cv::Mat1f sum;
   cv::Mat1f weight;

@@ -12,8 +12,9 @@ namespace repose::vision {
 ///
 /// The autocorrelation of lightness falls until the lag leaves a grain: at the diameter for grains
 /// of random brightness, at 0.6 of it for packed grains with shaded rims. The size is 1.25 times
-/// the lag of that elbow, good to a factor of two; slow changes of light do not move an elbow.
-/// Empty when the body shows no pattern (a silhouette) or is too thin.
+/// the lag of that elbow, or 1.7 times if the correlation is negative there (packed grains);
+/// accurate to a factor of two. Gradual changes in lighting do not shift the elbow. std::nullopt if
+/// the body shows no pattern (a silhouette) or is too thin.
 std::optional<double> grain_size(const WorkingPicture& work, const cv::Mat1b& body);
 
 }  // namespace repose::vision

@@ -14,13 +14,14 @@ namespace repose::vision {
 namespace {
 
 constexpr std::size_t kTrialPoints = 60;
-constexpr double kBelowPenalty = 2;  // a point below the ground speaks against it twice as loudly
+constexpr double kBelowPenalty = 2;  // a point below the ground counts twice against it
 
 constexpr int kBand = 4;         // px on either side of the line that are compared
-constexpr int kStretches = 40;   // of the line that must each show a step
-constexpr double kTails = 0.25;  // of the base's width: bare ground that counts on each side
+constexpr int kStretches = 40;   // parts of the line that must each show a step
+constexpr double kTails = 0.25;  // of the base's width: bare ground included on each side
 
-constexpr double kMaxBelow = 0.15;  // of the points: what lies far below a line is not on ground
+constexpr double kMaxBelow = 0.15;  // of the points: a region that extends far below a line does
+                                    // not stand on it
 
 std::vector<Point> thinned(const std::vector<Point>& points) {
   if (points.size() <= kTrialPoints) return points;
@@ -66,7 +67,7 @@ Refit refit(const PictureLine& start, const std::vector<Point>& points, double t
     squares += (y[i] - fit.y(x[i])) * (y[i] - fit.y(x[i]));
     spread += (x[i] - middle) * (x[i] - middle);
   }
-  // Neighbouring base points belong to one grain: count every tenth as independent.
+  // Neighbouring base points belong to one grain: every tenth counts as independent.
   const double independent = std::max(3.0, static_cast<double>(x.size()) / 10);
   const double n = std::max<double>(1, static_cast<double>(x.size()));
   const double variance = (squares / n + 0.01) / (independent - 2);
@@ -137,23 +138,23 @@ constexpr double kTailFraction = 0.12;  // of the frame's width that must be bar
 constexpr double kTailTolerance = 1.6;  // px: bare ground is smooth, an apron of grains is not
 constexpr int kTailDepth = 15;          // px of the ground that are compared with the heap
 constexpr double kSameMaterial = 9;     // distance in L*a*b* and roughness
-constexpr double kOtherColour = 6;      // distance in a*b* alone, which a shade leaves alone
-constexpr double kHeapsOwn = 1.6;       // times nearer in colour to the heap: no reflection of it
-constexpr double kNearer = 1.3;         // times: nearer in colour to the heap than to the ground
-constexpr double kBesideBase = 0.15;    // of the base's width: ground on each side of it
+constexpr double kOtherColour = 6;      // distance in a*b* alone, which shadows do not change
+constexpr double kHeapsOwn = 1.6;     // times closer in colour to the heap: not a reflection of it
+constexpr double kNearer = 1.3;       // times closer in colour to the ground than to the heap
+constexpr double kBesideBase = 0.15;  // of the base's width: ground on each side of it
 constexpr std::size_t kFewestColumns = 8;
-constexpr int kSkirtDepth = 6;          // px below the ground in which no heap may go on
+constexpr int kSkirtDepth = 6;          // px below the ground that may not show the heap
 constexpr double kStraightBase = 0.04;  // bow of a base that is a line, as a fraction of its width
 constexpr double kRaggedBase = 0.15;    // bow upwards: gaps in the base, but no arch
-// Standard uncertainty of the tilt where the base is the frame's edge or a box: a camera held by
+// Standard uncertainty of the tilt if the base is the frame's edge or a box: camera levelled by
 // eye.
 constexpr double kRoll_rad = 1 * kDegree;
-constexpr int kFrameMargin = 3;         // px: what ends so close to the frame is cut by it
+constexpr int kFrameMargin = 3;         // px: anything ending this close to the frame is cut off
 constexpr double kBaseTolerance = 3.0;  // px: grains touch the ground only here and there
 
-constexpr double kEqualEvidence = 0.9;  // of the best line's: as good
+constexpr double kEqualEvidence = 0.9;  // of the best line's: equally good
 constexpr double kPlainEdge = 0.6;      // evidence above which a line lies on an edge
-constexpr double kBetterEdge = 1.1;     // times the evidence: a search that is worth believing
+constexpr double kBetterEdge = 1.1;     // times the evidence: a search result worth accepting
 constexpr double kFarthest = 6;         // px by which a search moves an end
 constexpr double kFirstStep = 4;        // px by which the search moves the line's ends
 constexpr double kLastStep = 0.5;
@@ -182,7 +183,7 @@ struct Material {
 };
 
 /// Whether the layer below a line through the outline's tails is made of the heap's own material:
-/// then it is an apron of grains, not the ground.
+/// if so, it is an apron of grains, not the ground.
 bool tails_are_grains(const Spans& spans, const PictureLine& line, const WorkingPicture& work) {
   Material tail;
   Material heap;
@@ -201,12 +202,12 @@ bool tails_are_grains(const Spans& spans, const PictureLine& line, const Working
   return tail.count > 0 && heap.count > 0 && cv::norm(tail.mean() - heap.mean()) < kSameMaterial;
 }
 
-/// Of a difference of two materials, without lightness and roughness.
+/// The colour part of a difference between two materials, without lightness and roughness.
 double colour_of(const cv::Vec4d& difference) { return std::hypot(difference[1], difference[2]); }
 
-/// Whether the heap's material goes on below a line through the outline's tails, which is another
-/// one there: then the line is an edge behind the heap (where the table ends, seen from a little
-/// above), and the heap's foot is lower.
+/// Whether the heap's material extends below a line through the outline's tails, where the material
+/// is a different one: if so, the line is an edge behind the heap (the table's far edge, seen from
+/// slightly above), and the heap's foot is lower.
 bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPicture& work) {
   Material tail;
   Material above;
@@ -229,14 +230,14 @@ bool goes_on_below(const Spans& spans, const PictureLine& line, const WorkingPic
   const cv::Vec4d from_heap = above.mean() - below.mean();
   const cv::Vec4d from_tail = tail.mean() - below.mean();
   if (cv::norm(from_tail) < kSameMaterial) return false;
-  // Grains in a shade are of the heap's colour, if not as light.
+  // Shaded grains have the heap's colour, but not its lightness.
   const bool is_shaded = colour_of(from_tail) >= kOtherColour &&
                          kHeapsOwn * colour_of(from_heap) < colour_of(from_tail);
   return cv::norm(from_heap) < kSameMaterial || is_shaded;
 }
 
-/// Whether the heap ends above a line through the lower outline: what lies just above the line
-/// below the heap has the colour of what lies there beside it, not that of the heap. Then the
+/// Whether the heap ends above a line through the lower outline: just above the line, the strip
+/// below the heap has the colour of the strip beside it, not that of the heap. In that case the
 /// region has run down over the ground to an edge in front of the heap.
 bool ends_above(const Spans& spans, const PictureLine& line, const WorkingPicture& work) {
   const std::vector<Point> tops = points_of(spans.top, 0);
@@ -264,8 +265,8 @@ bool ends_above(const Spans& spans, const PictureLine& line, const WorkingPictur
   return from_heap >= kOtherColour && kNearer * colour_of(ground.mean() - strip.mean()) < from_heap;
 }
 
-/// Bare ground left or right of the heap, when the segmentation took the ground for heap: a smooth
-/// stretch of the upper outline that reaches the frame, everything else above it.
+/// Bare ground left or right of the heap, if the segmentation included the ground: a smooth stretch
+/// of the upper outline that reaches the frame, with everything else above it.
 std::optional<Ground> ground_from_tails(const Spans& spans, const WorkingPicture& work) {
   const cv::Rect& frame = work.frame;
   const auto reaches = [&](int col) { return spans.top[static_cast<std::size_t>(col)] >= 0; };
@@ -300,8 +301,9 @@ double bow_of(const std::vector<Point>& points) {
   return -fit[2] / (2 * reach);
 }
 
-/// The axis of a reflection: half way between the upper and the lower outline, everywhere. What is
-/// below it must look different, as a reflection is weaker; else this is one body seen from above.
+/// The axis of a reflection: half-way between the upper and the lower outline everywhere. The part
+/// below must look different, since a reflection is weaker; otherwise this is one body seen from
+/// above.
 std::optional<Ground> ground_from_mirror(const Spans& spans, const WorkingPicture& work) {
   std::vector<Point> middles;
   for (std::size_t col = 0; col < spans.top.size(); ++col) {
@@ -324,8 +326,8 @@ std::optional<Ground> ground_from_mirror(const Spans& spans, const WorkingPictur
   return Ground{axis->line, axis->deviation_rad, std::nullopt, true};
 }
 
-/// The lower outline, where it is seen: where the region runs out of the frame or under an excluded
-/// box, its end says nothing of the ground.
+/// The lower outline where it is visible: where the region runs out of the frame or under an
+/// excluded box, its end says nothing about the ground.
 std::vector<Point> seen_bottoms(const Spans& spans, const WorkingPicture& work) {
   std::vector<Point> seen;
   for (std::size_t i = 0; i < spans.bottom.size(); ++i) {
@@ -372,8 +374,8 @@ struct Edge {
   double valid_mask = 0;
 };
 
-/// How a search may move the line's ends, in steps. A base that bows, seen from a little above, is
-/// no line: whichever of its halves the line were turned to would look better. It is only shifted.
+/// How a search may move the line's ends, in steps. A base that bows, seen from slightly above, is
+/// not a line: turning the line towards either half would look better. It is only shifted.
 std::vector<std::pair<int, int>> moves_of(const std::optional<double>& bow) {
   std::vector<std::pair<int, int>> moves = {{1, 1}, {-1, -1}};
   if (bow.value_or(0) <= kFlatBase) {
@@ -382,7 +384,7 @@ std::vector<std::pair<int, int>> moves_of(const std::optional<double>& bow) {
   return moves;
 }
 
-/// Whether both ends lie within the search's reach of where it began: the next edge of a plate does
+/// Whether both ends lie within the search's range of where it began: the next edge of a plate does
 /// not.
 bool is_near(const PictureLine& line, const PictureLine& start, const Base& base) {
   return std::abs(line.y(base.from) - start.y(base.from)) <= kFarthest &&
@@ -412,7 +414,7 @@ Edge edge_near(const Edge& start, const std::optional<double>& bow, const Base& 
   return best;
 }
 
-/// In place of an edge before the heap the best of those that are not, if any is.
+/// Instead of an edge in front of the heap, the best line at its foot, if there is one.
 std::size_t best_foot_behind(const std::vector<Ground>& candidates,
                              const std::vector<double>& evidence, std::size_t best) {
   std::size_t foot = best;
@@ -423,8 +425,8 @@ std::size_t best_foot_behind(const std::vector<Ground>& candidates,
   return foot;
 }
 
-/// The candidate with the best evidence; but where the heap goes on below that, the best of those
-/// that are its foot, if any is.
+/// The candidate with the best evidence; but if the heap extends below it, the best of those at its
+/// foot, if there are any.
 std::size_t best_of(const std::vector<Ground>& candidates, const std::vector<double>& evidence,
                     const Base& base) {
   const auto best = static_cast<std::size_t>(std::max_element(evidence.begin(), evidence.end()) -

@@ -28,18 +28,18 @@ LightSteps light_steps(const cv::Mat1f& lightness, const cv::Mat1b& inside) {
 
 namespace {
 
-constexpr int kRim_px = 5;               // of the body, whose own edge is no edge inside it
-constexpr double kUpright = 3.7;         // tan 75 degrees: edges so steep are walls and rulers
+constexpr int kRim_px = 5;               // of the body, whose own edge is not an edge inside it
+constexpr double kUpright = 3.7;         // tan 75 degrees: edges this steep are walls and rulers
 constexpr double kPatchBlur = 1.0 / 14;  // of the crest's height
-constexpr double kPatchStep = 1.0 / 10;  // ... over which the colour may not change
-constexpr double kCoarser = 4;           // pixels of the picture in one that is compared
-constexpr double kPatchChange = 9;       // distance in L*a*b* that is another part
+constexpr double kPatchStep = 1.0 / 10;  // ... over which the colour must not change
+constexpr double kCoarser = 4;           // picture pixels per compared pixel
+constexpr double kPatchChange = 9;       // distance in L*a*b* between different parts
 constexpr double kGradientBlur_px = 1;   // single pixels have no direction
 constexpr float kFaintestGradient = 1e-3F;
 constexpr std::size_t kRings = 32;  // of wavelengths
-constexpr double kStrong = 8;       // times the mean of the ring: by chance one in 3000
+constexpr double kStrong = 8;       // times the mean of the ring: probability one in 3000
 
-/// The part of the picture that the body's box shows.
+/// The part of the picture inside the body's box.
 struct Inside {
   cv::Mat1b core;  ///< the body without its rim
   cv::Mat3f lab;
@@ -58,7 +58,7 @@ Inside inside_of(const cv::Mat1b& body, const WorkingPicture& work) {
   return inside;
 }
 
-/// There are pixels inside, and all have one colour.
+/// Whether there are pixels inside, and all have one colour.
 bool is_flat(const Inside& inside) {
   const cv::Vec3b* first = nullptr;
   for (int row = 0; row < inside.bgr.rows; ++row) {
@@ -120,8 +120,8 @@ double patchy_part(const Inside& inside, double crest_height) {
   return pairs > 0 ? static_cast<double>(changed) / pairs : 0;
 }
 
-/// Lengths of the mean of exp(2 i a) and of exp(4 i a), a the directions of the gradients, weighted
-/// by their lengths: 0 where they point anywhere, as around grains.
+/// Magnitudes of the means of exp(2 i a) and exp(4 i a), where a is the direction of the gradients,
+/// weighted by their lengths: 0 if they point in all directions, as around grains.
 void add_directions(BodyTexture& texture, const Inside& inside) {
   cv::Mat1f smooth;
   cv::GaussianBlur(inside.lightness, smooth, {}, kGradientBlur_px);
@@ -150,7 +150,7 @@ void add_directions(BodyTexture& texture, const Inside& inside) {
   texture.crossed = cv::norm(four_times) / lengths;
 }
 
-/// Power of the pattern at all its wavelengths.
+/// Power spectrum of the pattern.
 cv::Mat1f spectrum_of(const Inside& inside) {
   cv::Mat1f weight;
   inside.core.convertTo(weight, CV_32F, 1 / 255.0);
@@ -170,8 +170,8 @@ cv::Mat1f spectrum_of(const Inside& inside) {
   return parts[0].mul(parts[0]) + parts[1].mul(parts[1]);
 }
 
-/// Part of the pattern's power in waves that are much stronger than others of about their length:
-/// grains that lie by chance have none, what is laid or woven has little else.
+/// Fraction of the pattern's power in waves that are much stronger than others of similar length:
+/// randomly packed grains have none; laid or woven things have little else.
 double regular_part(const Inside& inside) {
   const cv::Mat1f power = spectrum_of(inside);
   std::vector<double> sum(kRings, 0);
@@ -222,14 +222,14 @@ BodyTexture texture_of(const cv::Mat1b& body, double crest_height, const Working
 namespace {
 
 constexpr std::size_t kSmoothingParts =
-    30;                                    // of the profile: bumps narrower than that are no climb
-constexpr double kSmoothingGrains = 3;     // nor those narrower than that
+    30;                                    // of the profile: narrower bumps do not count as a climb
+constexpr double kSmoothingGrains = 3;     // nor do bumps narrower than that
 constexpr double kLowest = 0.06;           // of the height: below, toes of grains leave gaps
 constexpr std::size_t kRoughness_px = 25;  // over which the edge is averaged: several fine grains
-constexpr std::size_t kTread_px = 5;       // over which a level edge is looked for
+constexpr std::size_t kTread_px = 5;       // over which a level edge is detected
 constexpr double kLevelSlope = 0.15;       // of the flank's slope
 
-/// A grain's size, from the body's pattern or else from the edge's bumps.
+/// A grain's size, from the body's pattern, or else from the edge's bumps.
 double grain_of(const Reading& reading) {
   if (reading.grain) return *reading.grain;
   return std::max(reading.left.grain, reading.right.grain);
@@ -255,7 +255,8 @@ double filled_part(const Reading& reading, const WorkingPicture& work) {
   return under > 0 ? inside / under : 0;
 }
 
-/// Sum of all rises of the smoothed edge from the crest outwards, on the sides that are flanks.
+/// Total rise of the smoothed edge from the crest outwards, over the crest's height, on the side
+/// where it is larger; only on flanks, if there are any.
 double climb_of(const Reading& reading) {
   const Profile& profile = reading.profile;
   const double grain = grain_of(reading);
@@ -283,7 +284,7 @@ double roughness_of(const FlankFit& flank) {
   return std::sqrt(squares / std::max<double>(1, static_cast<double>(smooth.size())));
 }
 
-/// Part of the edge that is level, seen against the flank's own slope: treads of stairs.
+/// Fraction of the edge that is level compared with the flank's own slope: treads of stairs.
 double level_part(const FlankFit& flank) {
   if (flank.status != FlankStatus::ok || flank.height.size() <= kTread_px) return 0;
   const double fall = kTread_px * std::abs(flank.robust.slope);
@@ -303,16 +304,16 @@ constexpr double kMaxCrossed = 0.15;
 constexpr double kMaxRegular = 0.33;
 constexpr double kMaxLevel = 0.5;
 constexpr double kMinNoise = 0.4;
-// Roughness of an edge that no grains make [working px]: of grains of some size, where the edge is
-// sharp or blurred, and at all.
+// Roughness of an edge not made of grains [working px]: as a fraction of the grain size, for sharp
+// and blurred edges, and in absolute terms.
 constexpr double kSmoothGrain = 0.04;
-constexpr double kSmoothFineGrain = 0.02;  // the pixels smooth it
+constexpr double kSmoothFineGrain = 0.02;  // smoothed by the pixels
 constexpr double kFineGrain_px = 5;
 constexpr double kBlurredGrain = 0.015;
-constexpr double kBlurred = 0.6;  // sharpness below which it is
+constexpr double kBlurred = 0.6;  // sharpness below which an edge is blurred
 constexpr double kSharpEdge_px = 0.1;
 
-/// Below it an edge is smoother than grains make it [working px].
+/// Roughness below which an edge is smoother than grains make it [working px].
 double least_roughness(const HeapPlausibility& likeness, std::optional<double> grain) {
   if (!grain) return kSharpEdge_px;
   const double of_grain = likeness.sharpness < kBlurred ? kBlurredGrain

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kTukeyTuning = 4.685;   // 95 % efficiency on normal residuals
 constexpr double kSmallestScale = 1e-6;  // keeps a perfect line solvable
-constexpr int kMaxRounds = 8;            // of line and scale in turn
-constexpr double kSettled = 0.02;        // relative change of the scale that moves no line
+constexpr int kMaxRounds = 8;            // of fitting line and scale alternately
+constexpr double kSettled = 0.02;        // relative change of scale that leaves the line alone
 
 /// Vertical distances of all points from one line; the loss is applied to each by IRLS weights
 /// inside Ceres, so every point is its own residual block.
@@ -40,7 +40,7 @@ double weight_at(std::span<const double> weight, std::size_t i) {
   return weight.empty() ? 1 : weight[i];
 }
 
-/// The least value that half of all weight does not exceed.
+/// The smallest value up to which the weights sum to half of the total.
 double weighted_median(std::span<const double> values, std::span<const double> weight) {
   std::vector<std::pair<double, double>> sorted;
   double left = 0;
@@ -91,7 +91,7 @@ LineFit least_squares_line(std::span<const double> x, std::span<const double> y,
     sxy += counts * (x[i] - mean_x) * (y[i] - mean_y);
     syy += counts * (y[i] - mean_y) * (y[i] - mean_y);
   }
-  // Points above one another: what is left of sxx is rounding.
+  // All points at the same x: what remains of sxx is rounding.
   if (sxx <= 1e-20 * all * mean_x * mean_x || sxx == 0) {
     return {.intercept = mean_y};
   }
@@ -103,7 +103,7 @@ LineFit least_squares_line(std::span<const double> x, std::span<const double> y,
 
 namespace {
 
-/// 1.4826 times the median distance from the line: the standard deviation of normal residuals.
+/// 1.4826 times the median distance from the line: the standard deviation if residuals are normal.
 double scale_around(const LineFit& line, std::span<const double> x, std::span<const double> y,
                     std::span<const double> weight) {
   std::vector<double> distance;
@@ -128,7 +128,7 @@ LineFit robust_line(std::span<const double> x, std::span<const double> y,
   double line[2] = {start.y(middle), start.slope * reach};
   ceres::LossFunctionWrapper tukey(new ceres::TukeyLoss(kTukeyTuning * scale),
                                    ceres::TAKE_OWNERSHIP);
-  std::deque<ceres::ScaledLoss> lessened;  // of points that count in part; addresses stay
+  std::deque<ceres::ScaledLoss> lessened;  // of points with partial weight; addresses stay valid
   ceres::Problem::Options ownership;
   ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);

@@ -18,11 +18,12 @@ namespace repose::vision {
 
 namespace {
 
-/// It is 1 for a cone; the mean of a heap of hazelnuts is up to 1.7, and was 14 and 15 for layers
-/// of them. Proved by OutlineAngle.AWidePlateauHasNoFlank and AHeapWithAFlatTopHasFlanks.
+/// Height at which a flank's line may meet the crest's axis, over the crest's height. It is 1 for a
+/// cone; on average up to 1.7 for heaps of hazelnuts, but 14 and 15 for layers of them. Proved by
+/// OutlineAngle.AWidePlateauHasNoFlank and AHeapWithAFlatTopHasFlanks.
 constexpr double kHighestAtCrest = 3;
-/// A layer's line is nearly level and would end far away; heaps of hazelnuts come to 1.2. Proved by
-/// OutlineAngle.TheFootOfALayerIsNearItsEnd.
+/// A layer's line is nearly level and would end far away; for heaps of hazelnuts the ratio is up to
+/// 1.2. Proved by OutlineAngle.TheFootOfALayerIsNearItsEnd.
 constexpr double kFarthestFoot = 2;
 
 bool are_finite(const std::vector<double>& values) {
@@ -60,8 +61,8 @@ void check(const Outline& outline, const OutlineOptions& options) {
   if (!errors.empty()) throw base::InputError(std::move(errors));
 }
 
-/// Distance of neighbouring points: the unit in which an outline is like a picture's edge, which
-/// has a point in each pixel column.
+/// Spacing of neighbouring points: the unit in which an outline resembles a picture's edge, which
+/// has one point per pixel column.
 double spacing_of(const Outline& outline) {
   if (outline.along.size() < 2) return 1;
   const auto gaps = static_cast<double>(outline.along.size() - 1);
@@ -76,7 +77,7 @@ Profile profile_of(const Outline& outline, double spacing) {
   return profile;
 }
 
-/// As of a picture, but level lines and the edges of plateaus are none.
+/// As for a picture, but level lines and the edges of plateaus are not flanks.
 FlankFit fit_of(const Profile& profile, Side side, const FlankOptions& options) {
   FlankFit fit = fit_flank(profile, side, options);
   if (fit.status != FlankStatus::ok) return fit;
@@ -153,7 +154,7 @@ bool is_dark(const Picture& picture, int column, int row) {
   return sum < 3 * kHalfGrey;
 }
 
-/// Of the highest dark pixel above the ground; 0 when there is none.
+/// Height of the highest dark pixel above the ground; 0 if there is none.
 double height_in(const Picture& picture, const Box& part, int column, double ground_y) {
   for (int row = part.y; row < part.y + part.height && row < ground_y; ++row) {
     if (is_dark(picture, column, row)) return ground_y - row;

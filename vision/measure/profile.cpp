@@ -18,8 +18,7 @@ double edge_y(const cv::Mat1f& inside, int row, int col) {
   return row + 0.5 - below / (below - above);
 }
 
-/// Middle of the stretch that stays within 3 % of the top: a flat crest has no single highest
-/// point.
+/// Middle of the stretch within 3 % of the top: a flat crest has no single highest point.
 std::size_t crest_middle(const std::vector<double>& smooth, double top) {
   std::size_t first = smooth.size();
   std::size_t last = 0;
@@ -31,9 +30,9 @@ std::size_t crest_middle(const std::vector<double>& smooth, double top) {
   return (first + last) / 2;
 }
 
-constexpr double kTowerStep = 0.5;     // of the median height: a leap that no heap of grains makes
-constexpr double kTowerWidth = 0.25;   // of the profile: a wider thing is no tower
-constexpr std::size_t kStepWidth = 3;  // columns within which the leap happens
+constexpr double kTowerStep = 0.5;     // of the median height: a jump that no heap of grains makes
+constexpr double kTowerWidth = 0.25;   // of the profile: anything wider is not a tower
+constexpr std::size_t kStepWidth = 3;  // columns within which the jump happens
 
 /// One column of the picture in which the body has an upper edge.
 struct Column {
@@ -42,8 +41,8 @@ struct Column {
   bool at_top;  ///< it touches the frame's top
 };
 
-/// Columns of walls, rulers and tubes that stand on or beside the heap and are joined to it: narrow
-/// stretches bounded by a leap on one side and a leap or the profile's end on the other.
+/// Columns of walls, rulers and tubes that stand on or touch the heap: narrow stretches bounded by
+/// a jump on one side and a jump or the profile's end on the other.
 std::vector<bool> tower_columns(const std::vector<Column>& columns) {
   const std::size_t n = columns.size();
   std::vector<double> heights;
@@ -64,7 +63,7 @@ std::vector<bool> tower_columns(const std::vector<Column>& columns) {
     const std::size_t from = first > kStepWidth ? first - kStepWidth : 0;
     for (std::size_t i = from; i < std::min(n, last + kStepWidth); ++i) tower[i] = true;
   };
-  std::size_t rise = 0;  // the profile's start counts as a leap
+  std::size_t rise = 0;  // the profile's start counts as a jump
   bool risen = true;
   for (std::size_t i = 0; i < n; ++i) {
     if (leaps_up(i)) {
@@ -80,8 +79,8 @@ std::vector<bool> tower_columns(const std::vector<Column>& columns) {
   return tower;
 }
 
-/// How many of the first points are a strip of the plate that segmentation took with the heap: long
-/// and lower than any toe of grains can be. `at` gives the points from the profile's end on.
+/// Number of points at one end that are a strip of the plate segmented with the heap: long, and
+/// lower than any toe of grains can be. `at` indexes the points from that end.
 template <typename At>
 std::size_t strip_length(const Profile& profile, const At& at) {
   constexpr double kHighest_px = 2, kShortest_px = 10;
@@ -92,7 +91,7 @@ std::size_t strip_length(const Profile& profile, const At& at) {
   return length_px < kShortest_px ? 0 : count;
 }
 
-/// The foot behind such a strip is seen, wherever the strip ends.
+/// The foot behind such a strip is visible, wherever the strip ends.
 void cut_strips(Profile& profile) {
   const std::size_t last = profile.size() - 1;
   const std::size_t left = strip_length(profile, [](std::size_t i) { return i; });

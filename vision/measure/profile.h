@@ -6,7 +6,7 @@
 
 namespace repose::vision {
 
-/// The heap's upper edge, one point a working-picture column, in ground coordinates [working px].
+/// The heap's upper edge, one point per working-picture column, in ground coordinates [working px].
 struct Profile {
   std::vector<double> along;   ///< ascending
   std::vector<double> height;  ///< above the ground line
@@ -22,11 +22,11 @@ struct Profile {
 Profile upper_profile(const Body& body, const Segmentation& segmentation,
                       const WorkingPicture& work);
 
-/// Finds the crest: the middle of what stays within 3 % of the top of the lightly smoothed edge.
-/// Needs a point.
+/// Finds the crest: the middle of the stretch within 3 % of the top of the lightly smoothed edge.
+/// Needs at least one point.
 void set_crest(Profile& profile);
 
-/// Moving average over `width` points, narrower at the ends.
+/// Moving average over `width` points, narrower near the ends.
 std::vector<double> moving_average(const std::vector<double>& values, std::size_t width);
 
 }  // namespace repose::vision

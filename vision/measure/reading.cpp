@@ -12,11 +12,11 @@ namespace repose::vision {
 
 namespace {
 
-constexpr int kBandBegins = 2;       // px from the edge at which the bands beside it begin
-constexpr int kBandFar = 8;          // and end
-constexpr double kUsualBase = 0.25;  // of the frame's width: smaller things are hardly the subject
-constexpr double kUsualPartOfBox = 0.4;  // along its width or its height
-constexpr double kCrestUnseen = 0.3;     // a body that hangs from the top is hardly the heap
+constexpr int kBandBegins = 2;           // px from the edge at which the bands beside it begin
+constexpr int kBandFar = 8;              // and end
+constexpr double kUsualBase = 0.25;      // of the frame's width: the subject is hardly ever smaller
+constexpr double kUsualPartOfBox = 0.4;  // of its width or its height
+constexpr double kCrestUnseen = 0.3;     // a body that touches the frame's top is hardly the heap
 constexpr std::size_t kChunks = 10;
 
 struct EdgePoint {
@@ -75,14 +75,14 @@ double fraction_of(const cv::Mat1b& places, const cv::Mat1b& mask) {
          std::max(1, cv::countNonZero(places));
 }
 
-/// How far the body is where a person has said that the heap is, 0 to 1.
+/// How far the body agrees with the user's marks on and beside the heap, 0 to 1.
 double agreement_with(const UserHints& told, const Body& body) {
   const double kept = told.on_heap.empty() ? 1 : fraction_of(told.on_heap, body.mask);
   const double dropped = told.beside_heap.empty() ? 1 : fraction_of(told.beside_heap, ~body.mask);
   return kept * dropped;
 }
 
-/// What a heap's place in the frame says of it being the subject.
+/// How far a heap's size and place in the frame suggest that it is the subject.
 double subject_score(const Reading& reading, const WorkingPicture& work) {
   const double base = reading.profile.along.back() - reading.profile.along.front();
   if (work.told.has_box) {

@@ -13,7 +13,7 @@ constexpr int kFeatures = 6;  // L*, a*, b*, roughness, u, u^2
 using Feature = cv::Vec<double, kFeatures>;
 using Covariance = cv::Matx<double, kFeatures, kFeatures>;
 
-constexpr float kBandNear = 2;         // px from the edge: mixed pixels teach nothing
+constexpr float kBandNear = 2;         // px from the edge: nothing is learned from mixed pixels
 constexpr double kBandFraction = 0.3;  // of the body's height: how far from the edge it learns
 constexpr int kGrabCutSide = 240;      // px; the cost grows with the square
 constexpr int kGrabCutRounds = 3;
@@ -65,7 +65,7 @@ cv::Mat1b below_ground(const WorkingPicture& work, const PictureLine& ground) {
 Segmentation learned_segmentation(const WorkingPicture& work, const Body& body) {
   const FeatureImages images(work);
   const cv::Mat1b below = below_ground(work, body.ground);
-  cv::Mat1f into;  // distance into the body; the ground is no edge
+  cv::Mat1f into;  // distance into the body; the ground is not an edge
   cv::distanceTransform(body.mask | below, into, cv::DIST_L2, 3);
   cv::Mat1f away;
   cv::distanceTransform(~body.mask, away, cv::DIST_L2, 3);
@@ -87,7 +87,7 @@ Segmentation learned_segmentation(const WorkingPicture& work, const Body& body) 
   Covariance within = inside.covariance() + outside.covariance();
   for (int i = 0; i < kFeatures; ++i) within(i, i) += i < 4 ? 1.0 : 1e-3;
   const Feature weights = within.solve(inside.mean() - outside.mean(), cv::DECOMP_CHOLESKY);
-  // The threshold halves the step measured in standard deviations: a rough side needs more room.
+  // The threshold divides the step in units of standard deviations: a rough side gets more room.
   const auto spread = [&](const Class& c) {
     return std::sqrt(std::max(1e-12, weights.dot(c.covariance() * weights)));
   };
@@ -105,7 +105,7 @@ Segmentation learned_segmentation(const WorkingPicture& work, const Body& body) 
 
 namespace {
 
-/// GrabCut at a small size, where its cost is small. `labels` are of the working picture's size.
+/// GrabCut at reduced size, for speed. `labels` have the working picture's size.
 Segmentation grab_cut(const std::string& name, const WorkingPicture& work, const cv::Mat1b& labels,
                       std::uint64_t seed) {
   const double scale =
@@ -130,7 +130,7 @@ Segmentation grab_cut(const std::string& name, const WorkingPicture& work, const
   return cut;
 }
 
-/// The triangle that a heap fills of the frame, above a told ground.
+/// The triangle that a heap fills of the frame, above the ground if that is given.
 cv::Mat1b triangle_in(const WorkingPicture& work) {
   const cv::Rect& frame = work.frame;
   const auto foot = [&](int col) {

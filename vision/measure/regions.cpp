@@ -13,7 +13,7 @@ Spans spans_of(const cv::Mat1b& mask) {
   for (int row = box.y; row < box.br().y; ++row) {
     const std::uint8_t* pixels = mask[row];
     for (auto col = static_cast<std::size_t>(box.x); col < static_cast<std::size_t>(box.br().x);
-         ++col) {  // without a branch, eight columns at a time
+         ++col) {  // branchless, eight columns at a time
       spans.top[col] = std::min(spans.top[col], pixels[col] != 0 ? row : mask.rows);
       spans.bottom[col] = pixels[col] != 0 ? row : spans.bottom[col];
     }
@@ -35,8 +35,8 @@ cv::Mat1b holes_filled(const cv::Mat1b& mask) {
   return filled;
 }
 
-// Areas and boxes by runs of one piece: pixel by pixel, as OpenCV counts them with the centroids,
-// they take longer than the labels.
+// Areas and boxes from runs of one piece: counted pixel by pixel, as OpenCV does together with the
+// centroids, they take longer than the labels.
 Pieces::Pieces(const cv::Mat1b& mask) : count(cv::connectedComponents(mask, labels, 4, CV_32S)) {
   areas_.resize(static_cast<std::size_t>(count));
   boxes_.resize(static_cast<std::size_t>(count));

@@ -15,12 +15,12 @@ struct Spans {
 
 Spans spans_of(const cv::Mat1b& mask);
 
-/// Background that cannot be reached from outside becomes foreground.
+/// Background that is not connected to the outside becomes foreground.
 cv::Mat1b holes_filled(const cv::Mat1b& mask);
 
 /// The connected pieces of a mask; piece 0 is the background.
 struct Pieces {
-  cv::Mat1i labels;  ///< number of the piece that each pixel belongs to
+  cv::Mat1i labels;  ///< number of the piece each pixel belongs to
   int count = 0;
 
   explicit Pieces(const cv::Mat1b& mask);

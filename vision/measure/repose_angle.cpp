@@ -22,10 +22,10 @@ namespace repose::vision {
 
 namespace {
 
-/// The chain of the published hazelnut study, for comparison: grey picture, Otsu's threshold,
+/// The procedure of the published hazelnut study, for comparison: grey picture, Otsu's threshold,
 /// largest region with its holes filled, upper edge, ordinary least squares through each side, mean
-/// of the two sides' absolute slopes. Angles are against the picture's horizontal; toe and crest
-/// are left out only as far as the window does.
+/// of the two sides' absolute slopes. Angles are relative to the picture's horizontal; toe and
+/// crest are left out only by the window.
 SelectedCandidate read_by_paper(const WorkingPicture& work, const MeasureOptions& options) {
   SelectedCandidate choice;
   Reading& reading = choice.best;
@@ -55,8 +55,8 @@ constexpr double kNarrowestWindow = 0.1;
 constexpr double kLargestPitch_rad = 30 * std::numbers::pi / 180;
 constexpr int kSmallestSide = 64;
 
-// Assumed: pitch that 95 of 100 cameras stay below which were levelled by eye, and which see the
-// heap cross an edge behind it.
+// Assumed: pitch below which 95 of 100 cameras stay that were levelled by eye, and that of cameras
+// that see an edge behind the heap cross it.
 constexpr double kPitchByEye_rad = 2 * std::numbers::pi / 180;
 constexpr double kPitchOverEdge_rad = 5 * std::numbers::pi / 180;
 
@@ -70,8 +70,8 @@ void check(const Picture& picture, const MeasureOptions& options) {
   if (!errors.empty()) throw base::InputError(std::move(errors));
 }
 
-/// Pitch that a camera may have which was taken for level: what the base's bow tells, where the
-/// base is the heap's own (a plate's front edge is straight from wherever one looks).
+/// Pitch that a camera assumed level may have: from the base's bow, if the base is the heap's own
+/// (a plate's front edge is straight from any viewpoint).
 double assumed_pitch_rad(const Reading& reading) {
   const Ground& ground = reading.body.ground;
   const Profile& profile = reading.profile;
@@ -82,7 +82,7 @@ double assumed_pitch_rad(const Reading& reading) {
   return pitch_from_bow(*ground.bow);
 }
 
-/// Takes the camera's pitch out of the angles of one reading, as far as it was told.
+/// Corrects the angles of one reading for the camera's pitch, if it is known.
 class PitchCorrection {
  public:
   PitchCorrection(const Reading& reading, const WorkingPicture& work, const MeasureOptions& options)
@@ -105,14 +105,14 @@ class PitchCorrection {
   double angle_rad(double apparent_rad) const {
     return without_pitch(apparent_rad, pitch_rad_.value_or(0));
   }
-  /// What the camera's unknown distance or pitch may change, half-width.
+  /// Effect of the camera's unknown distance or pitch, half-width.
   double camera_rad(double apparent_rad) const {
     if (!pitch_rad_) return assumed_pitch_error(apparent_rad, assumed_rad_);
     const double distance_rad =
         below_axis_rad_ ? 0 : far_camera_error(apparent_rad, *pitch_rad_, crest_rise_);
     return std::hypot(distance_rad, pitch_error_rad(apparent_rad));
   }
-  /// With that. An untold pitch always lowers the angle: that is no chance, so it is not added in
+  /// Including that. An unknown pitch always lowers the angle, so it is not random and not added in
   /// quadrature.
   double half_width_rad(double apparent_rad, double own_rad) const {
     const double camera = camera_rad(apparent_rad);
@@ -125,7 +125,7 @@ class PitchCorrection {
     return angle_without_pitch(angle_without_aside(apparent_rad, aside_rad_), pitch_rad,
                                pitch_rad + *below_axis_rad_);
   }
-  /// What a pitch at either end of its interval changes.
+  /// Change of the angle for a pitch at either end of its interval.
   double pitch_error_rad(double apparent_rad) const {
     if (deviation_rad_ <= 0) return 0;
     const double here = angle_rad(apparent_rad);
@@ -133,15 +133,15 @@ class PitchCorrection {
                     std::abs(without_pitch(apparent_rad, *pitch_rad_ - deviation_rad_) - here));
   }
 
-  std::optional<double> pitch_rad_;       // as it was told
-  double deviation_rad_;                  // of it, half-width
-  double assumed_rad_;                    // that a level camera may have
-  std::optional<double> below_axis_rad_;  // the crest's direction, of a known lens
+  std::optional<double> pitch_rad_;       // as given
+  double deviation_rad_;                  // its half-width
+  double assumed_rad_;                    // that a camera assumed level may have
+  std::optional<double> below_axis_rad_;  // the crest's direction, for a known lens
   double aside_rad_ = 0;                  // likewise
   double crest_rise_ = 0;                 // above the picture's middle / the base's radius
 };
 
-/// The side in the picture's own pixels, its angle corrected for the camera's pitch.
+/// The side in the picture's own pixels, with its angle corrected for the camera's pitch.
 /// @param fit  of the reading's edge, by whichever definition
 Flank flank_of(const FlankFit& fit, const Reading& reading, Side side, const WorkingPicture& work,
                double half_width_rad, const PitchCorrection& correction) {
@@ -225,8 +225,8 @@ NamedAngle named_angle(const base::AngleDefinition& definition, double apparent_
           .camera_uncertainty_rad = correction.camera_rad(apparent_rad)};
 }
 
-/// The angle and its sides by the definition that was asked for, and by all others. Nothing where
-/// the edge has no angle by that.
+/// The angle and its sides by the requested definition, and by all others. Left empty if the edge
+/// has no angle by the requested one.
 void add_angles(ReposeAngle& result, const SelectedCandidate& choice, const WorkingPicture& work,
                 const PitchCorrection& correction) {
   const Reading& best = choice.best;
@@ -259,7 +259,7 @@ void add_angles(ReposeAngle& result, const SelectedCandidate& choice, const Work
   }
 }
 
-/// Everything that was seen, in the picture's own pixels; judged later.
+/// Everything found, in the picture's own pixels; judged later.
 ReposeAngle described(const SelectedCandidate& choice, const WorkingPicture& work,
                       const MeasureOptions& options) {
   const Reading& best = choice.best;

@@ -32,48 +32,48 @@ struct Pinhole {
 
 struct MeasureOptions {
   Method method = Method::automatic;
-  /// Stretch of the flank that is fitted: from where the edge, smoothed over three grains, has the
-  /// one fraction of the heap's height above the ground line to where it has the other. Lower
-  /// values let in the spreading toe, higher ones the rounded crest; both flatten the line.
+  /// Stretch of the flank that is fitted: between the points where the edge, smoothed over three
+  /// grains, has these fractions of the heap's height above the ground line. Lower values let in
+  /// the spreading toe, higher ones the rounded crest; both flatten the line.
   double window_from = 0.2;
   double window_to = 0.8;
-  /// By which of base/angle_definition.h the angle is; empty: the usual one. Another has its own
-  /// window, and lines of its own.
+  /// Which definition of base/angle_definition.h to use; empty: the default. Each other definition
+  /// has its own window and its own lines.
   std::string definition;
-  /// Parts of the picture that are no evidence: timers, labels, hands [px of the picture].
+  /// Parts of the picture to ignore: timers, labels, hands [px of the picture].
   std::vector<Box> excluded;
-  /// What a person says where the program does not see it.
+  /// User hints for pictures that the program cannot read unaided.
   Hints hints;
-  /// Camera's downward pitch; the angle is corrected for it, as a far camera's. Its interval allows
-  /// for cameras down to 6 base radii away, in a picture whose middle is the lens's. None: not
-  /// told, and taken for level; the interval then allows for the pitch that the base's bow gives
-  /// away.
+  /// Camera's downward pitch; the angle is corrected for it as for a distant camera. The interval
+  /// allows for cameras down to 6 base radii away, with the picture's middle on the lens's axis.
+  /// std::nullopt: not given, and assumed level; the interval then allows for the pitch implied by
+  /// the bow of the base.
   std::optional<double> camera_pitch_rad = {};
-  /// Half-width of the pitch's 95 % interval, where it was measured; 0: told, and taken as exact.
+  /// Half-width of the pitch's 95 % interval if it was measured; 0: treated as exact.
   double camera_pitch_uncertainty_rad = 0;
-  /// With it the angle is corrected for the pitch as this lens sees the heap, from any distance.
+  /// If given, the angle is corrected for the pitch as this lens sees the heap, from any distance.
   std::optional<Pinhole> pinhole = {};
   /// Same picture + same seed = same bytes (bootstrap, GrabCut).
   std::uint64_t seed = 1;
-  /// How the user gives "camera pitch", "excluded box" and "heap box", for reasons and warnings
-  /// that advise to.
+  /// The user's names for "camera pitch", "excluded box" and "heap box", for reasons and warnings
+  /// that suggest them.
   base::FieldNames names = {};
 
-  /// Of base/angle_definition.h, what the angle is by; empty: none of these, for the window is
-  /// one's own or the method another.
+  /// Name in base/angle_definition.h of the definition in use; empty: none of them, because of a
+  /// custom window or another method.
   std::string named_definition() const;
-  /// That in words, for results that are not by the usual one: "height_over_base: crest height over
-  /// ...", "line at 10-90 % of the height". Empty: the usual one.
+  /// The same in words, for results by other than the default definition: "height_over_base: crest
+  /// height over ...", "line at 10-90 % of the height". Empty: the default.
   std::string definition_text() const;
-  /// Empty when usable; else each fault.
+  /// Empty if usable; otherwise one entry per error.
   std::vector<base::Fault> problems() const;
-  /// The same for what cannot be meant in a picture of that size.
+  /// The same for what is invalid in a picture of that size.
   std::vector<base::Fault> problems_in(int width, int height) const;
 };
 
 enum class MeasureStatus {
   ok,       ///< the number and its interval can be used
-  flagged,  ///< a number, but a warning says why a person must look first
+  flagged,  ///< a number, but a warning says why a person must check it first
   refused,  ///< no number; `reason` says why and what to do
 };
 
@@ -85,16 +85,16 @@ struct Warning {
   std::string message;
 };
 
-/// A line angle from another stretch of the same flank.
+/// The line's angle over another stretch of the same flank.
 struct WindowAngle {
   double window_from = 0;
   double window_to = 0;
   double angle_rad = 0;
 };
 
-/// A foot so much flatter than the flank above it that it counts less than half in the line.
+/// A foot so much flatter than the flank above it that it has less than half weight in the line.
 struct FlankApron {
-  double from = 0;            ///< of the heap's height: where it begins
+  double from = 0;            ///< where it begins, as a fraction of the heap's height
   double length_px = 0;       ///< from there to the foot
   double angle_with_rad = 0;  ///< of this side if the apron counted in full
   Segment line_with = {};     ///< the line that would give it, over the whole window [px]
@@ -105,8 +105,8 @@ struct Flank {
   std::string reason;               ///< why it is absent or truncated
   bool leaves_frame = false;        ///< the picture's edge hides its foot
   std::optional<double> angle_rad;  ///< the method's angle of this side
-  /// Stretch that was fitted, as fractions of the heap's height: the options' window, or less of it
-  /// where the frame cuts the side off or an apron begins.
+  /// Stretch that was fitted, as fractions of the heap's height: the window of the options,
+  /// shortened if the frame cuts the side off or an apron begins.
   std::optional<std::array<double, 2>> window_used;
   std::optional<double> uncertainty_rad;    ///< 95 % half-width
   std::optional<double> least_squares_rad;  ///< ordinary least squares, y on x
@@ -117,29 +117,29 @@ struct Flank {
   /// flank.
   std::optional<double> bend_rad;
   std::vector<WindowAngle> other_windows;
-  std::optional<FlankApron> apron;  ///< empty: none within the window
+  std::optional<FlankApron> apron;  ///< std::nullopt: none within the window
   std::optional<Segment> line;      ///< the fitted line over the stretch that was fitted [px]
   std::vector<Point> edge;          ///< the edge points it was fitted to [px]
 };
 
-/// The angle by another definition people use. Always named beside the number.
+/// The angle by another common definition. Always named beside the number.
 struct NamedAngle {
   std::string name;         ///< of base/angle_definition.h: "height_over_base"
   std::string description;  ///< one line: what is divided by what
   double angle_rad = 0;
-  std::optional<double> uncertainty_rad = {};         ///< as of ReposeAngle, these three;
-  std::optional<double> own_uncertainty_rad = {};     ///< empty: of an outline, which has none
+  std::optional<double> uncertainty_rad = {};         ///< these three as in ReposeAngle;
+  std::optional<double> own_uncertainty_rad = {};     ///< std::nullopt for an outline
   std::optional<double> camera_uncertainty_rad = {};  ///<
 };
 
 struct ReposeAngle {
   MeasureStatus status = MeasureStatus::refused;
-  std::string reason;               ///< when refused: what is wrong and how to mend it
-  bool outline_valid = false;       ///< when refused: only a flank's angle is, not the outline
+  std::string reason;               ///< if refused: what is wrong and how to fix it
+  bool outline_valid = false;       ///< if refused: only the angle was, not the outline
   std::optional<double> angle_rad;  ///< mean of the sides that exist
   std::optional<double> uncertainty_rad;
-  /// Parts of that, half-widths too: what is this picture's own, and what the camera's pitch and
-  /// distance add, which all pictures taken alike have in common.
+  /// Its parts, also half-widths: this picture's own uncertainty, and that of the camera's pitch
+  /// and distance, which all pictures taken the same way have in common.
   std::optional<double> own_uncertainty_rad;
   std::optional<double> camera_uncertainty_rad;
   Flank left;
@@ -147,28 +147,28 @@ struct ReposeAngle {
   std::optional<double>
       ground_tilt_rad;            ///< of the ground line in the picture, > 0: right end lower
   std::optional<Segment> ground;  ///< ground line over the heap's base [px]
-  /// Of base/angle_definition.h; empty: a window of one's own, or another method.
+  /// One of base/angle_definition.h; empty: a custom window, or another method.
   std::string definition;
   std::array<double, 2> window = {0.2, 0.8};
   Method method = Method::automatic;
-  std::optional<double> camera_pitch_rad;  ///< as it was told
-  std::string segmentation;                ///< name of the segmentation that was chosen
+  std::optional<double> camera_pitch_rad;  ///< as given
+  std::string segmentation;                ///< name of the chosen segmentation
   double confidence = 0;                   ///< 0 to 1
   std::vector<Warning> warnings;
   std::vector<Point> outline;       ///< silhouette of the heap's body, closed [px]
-  std::vector<Point> upper_edge;    ///< ... its upper side, left to right, finer than 1 px [px]
+  std::vector<Point> upper_edge;    ///< ... its upper side, left to right, subpixel [px]
   std::optional<Point> crest;       ///< middle of the highest part, on the lightly smoothed edge
   std::optional<double> height_px;  ///< crest above the ground line
   std::optional<double> base_px;    ///< width of the base along the ground line
-  std::optional<double> base_bow;   ///< how far the base bows downwards / base_px; empty: not seen
+  std::optional<double> base_bow;   ///< downward bow of the base / base_px; std::nullopt: not seen
   bool foot_occluded = false;       ///< the ground line is an edge behind the heap
   std::optional<double> grain_px;   ///< typical grain size, from the body's pattern
   int loose_particles = 0;          ///< grains lying apart from the body
-  std::vector<NamedAngle> definitions;  ///< the same heap by the others
+  std::vector<NamedAngle> definitions;  ///< the same heap by the other definitions
 };
 
-/// The angle by a definition of base/angle_definition.h; empty: the one that it was measured by.
-/// None where it could not be measured, as in pictures that are refused.
+/// The angle by a definition of base/angle_definition.h; empty: the one it was measured by.
+/// std::nullopt if it could not be measured, as in refused pictures.
 std::optional<double> angle_by(const ReposeAngle& measured, std::string_view definition);
 
 /// Measures one picture. Deterministic; safe to call from several threads at once. The first call

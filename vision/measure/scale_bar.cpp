@@ -36,7 +36,7 @@ std::optional<base::Fault> problem_in(const ScaleBar& scale, int width, int heig
 }
 
 Estimate mm_per_px(const ScaleBar& scale) {
-  // Each end is pointed at within a pixel or so.
+  // Each end is marked to within about a pixel.
   constexpr double kPointing_px = 1;
   const double length_px =
       std::hypot(scale.line.to.x - scale.line.from.x, scale.line.to.y - scale.line.from.y);

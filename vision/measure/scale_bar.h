@@ -13,25 +13,25 @@ struct Estimate {
   double uncertainty = 0;
 };
 
-/// Two points of the picture whose distance is known, in the plane that is measured: that in which
-/// a grain moves, or that of a heap's middle.
+/// Two points of the picture a known distance apart, in the plane that is measured: the plane of a
+/// grain's motion, or that through the middle of a heap.
 struct ScaleBar {
   Segment line;
   double length_mm = 0;
 };
 
-/// What a pixel can show: light resolves no less, and a heap of 100 pixels would be 100 m wide.
+/// Limits of a picture's scale: light resolves nothing finer, and a heap of 100 pixels would be 100
+/// m wide.
 inline constexpr double kFinestScale_mm_per_px = 1e-4, kCoarsestScale_mm_per_px = 1e3;
-/// Nearer to each other, two points cannot be pointed at.
+/// Points closer together than this cannot be marked accurately.
 inline constexpr double kShortestBar_px = 10;
 
-/// What cannot be meant, whatever the picture.
+/// An error that holds for any picture.
 std::optional<base::Fault> problem_of(const ScaleBar& scale);
-/// What cannot be meant in a picture of this size. Proved by ScaleBar.* in
-/// tests/vision/scale_bar_test.cpp.
+/// An error for a picture of this size. Proved by ScaleBar.* in tests/vision/scale_bar_test.cpp.
 std::optional<base::Fault> problem_in(const ScaleBar& scale, int width, int height);
 
-/// What the interval of a scale comes from: two points that a person points at.
+/// The scale; its interval comes from marking both points by hand.
 Estimate mm_per_px(const ScaleBar& scale);
 
 }  // namespace repose::vision

@@ -15,10 +15,10 @@ namespace repose::vision {
 
 namespace {
 
-/// Fraction of the frame's height, from the top, that is taken for backdrop until proven otherwise.
+/// Fraction of the frame's height, from the top, initially assumed to be backdrop.
 constexpr double kBackdropFraction = 0.25;
 
-/// The upper corners of a box around a heap, down to half its height: there it is not.
+/// The upper corners of a box around a heap, down to half its height: the heap is not there.
 cv::Mat1b backdrop_corners(const WorkingPicture& work) {
   cv::Mat1b corners = cv::Mat1b::zeros(work.valid_mask.size());
   const cv::Rect& frame = work.frame;
@@ -83,15 +83,16 @@ struct BackdropModel {
   }
 };
 
-constexpr int kModelStep = 4;  // every 4th pixel each way is plenty for 6 terms
+constexpr int kModelStep = 4;  // every 4th pixel in both directions is plenty for 6 terms
 
 constexpr int kModelRounds = 6;
 
-constexpr double kModelInlier = 9;  // squared distance of a pixel that still is backdrop
+constexpr double kModelInlier = 9;  // squared distance up to which a pixel counts as backdrop
 
 constexpr double kSmallestDeviation = 0.8;  // of L*a*b*: 8-bit steps alone give .3
 
-/// Least squares over the pixels now believed to be backdrop, a little ridge for a narrow strip.
+/// Least squares over the pixels now believed to be backdrop, with a slight ridge for narrow
+/// strips.
 BackdropModel fit_backdrop(const WorkingPicture& work, const std::vector<cv::Point>& pixels) {
   using Normal = cv::Matx<double, kSurfaceTerms, kSurfaceTerms>;
   Normal normal = Normal::eye() * (1e-3 * static_cast<double>(pixels.size()));
@@ -118,8 +119,8 @@ BackdropModel fit_backdrop(const WorkingPicture& work, const std::vector<cv::Poi
   return model;
 }
 
-/// What is taken for backdrop until proven otherwise: the upper part of the frame, or the corners
-/// of a box around the heap, and what a person has said. 255 there.
+/// What is initially assumed to be backdrop (255): the upper part of the frame, or the corners of a
+/// box around the heap, corrected by the user's hints.
 cv::Mat1b backdrop_strip(const WorkingPicture& work) {
   cv::Mat1b strip = cv::Mat1b::zeros(work.valid_mask.size());
   cv::Rect top = work.frame;
@@ -131,9 +132,9 @@ cv::Mat1b backdrop_strip(const WorkingPicture& work) {
   return strip & work.valid_mask;
 }
 
-/// ln(1 + how many standard deviations a pixel's colour is from the backdrop's), which is modelled
-/// as a smooth surface: it starts from the strip and takes in all pixels that agree with it, so
-/// that a gradient across the picture is no obstacle.
+/// ln(1 + d), where d is how many standard deviations a pixel's colour is from the backdrop's. The
+/// backdrop is modelled as a smooth surface that starts from the strip and takes in all pixels that
+/// agree with it, so a gradient across the picture does no harm.
 cv::Mat1f backdrop_distance(const WorkingPicture& work) {
   std::vector<cv::Point> pixels;
   const cv::Mat1b strip = backdrop_strip(work);
@@ -166,7 +167,7 @@ cv::Mat1f backdrop_distance(const WorkingPicture& work) {
 }
 
 constexpr int kSampleStep = 2;
-constexpr double kMinWeight = 1e-3;  // of the evidence within a blur's reach, to average over it
+constexpr double kMinWeight = 1e-3;  // valid fraction within a blur's reach needed for an average
 
 /// Every kSampleStep-th value each way where `where` is set: thousands, enough for a histogram.
 std::vector<float> sampled(const cv::Mat1f& values, const cv::Mat1b& where) {
@@ -185,7 +186,7 @@ float quantile(std::vector<float>& samples, double fraction) {
   return samples[static_cast<std::size_t>(at)];
 }
 
-/// The side of the threshold on which most of the backdrop lies is outside.
+/// The side of the threshold with most of the backdrop is outside.
 Segmentation by_threshold(std::string name, const cv::Mat1f& values, double threshold,
                           const cv::Mat1b& backdrop) {
   const int above = cv::countNonZero((values > threshold) & backdrop);
@@ -193,7 +194,7 @@ Segmentation by_threshold(std::string name, const cv::Mat1f& values, double thre
   return {std::move(name), cv::Mat1f((values - threshold) * sign)};
 }
 
-/// Average of `sum / weight` under one blur; 0 where there is no weight.
+/// Average over the valid pixels under a blur; values stay unchanged if none is within its reach.
 template <class Blur>
 cv::Mat1f weighted_average(const cv::Mat1f& values, const cv::Mat1b& valid_mask, Blur blur) {
   if (cv::countNonZero(valid_mask) == static_cast<int>(valid_mask.total())) return blur(values);
@@ -205,7 +206,7 @@ cv::Mat1f weighted_average(const cv::Mat1f& values, const cv::Mat1b& valid_mask,
   return average;
 }
 
-/// The same as `smoothed` for a wide blur, which needs no fine pixels.
+/// The same as `smoothed` for a wide blur, at reduced resolution.
 cv::Mat1f coarsely_smoothed(const cv::Mat1f& values, const cv::Mat1b& valid_mask, double sigma_px) {
   constexpr double kReduction = 8;
   return weighted_average(values, valid_mask, [&](const cv::Mat1f& sharp) {
@@ -289,7 +290,7 @@ Segmentation two_tone_segmentation(const WorkingPicture& work, const Tones& tone
   }
   cv::Mat values;
   cv::extractChannel(work.bgr, values, channel);
-  cv::Mat1f part;  // of a pixel, that has the second colour
+  cv::Mat1f part;  // of a pixel, covered by the second colour
   values.convertTo(part, CV_32F, 1.0 / step[channel], -1.0 * tones[0][channel] / step[channel]);
   return by_threshold(kTwoTones, smoothed(part, work.valid_mask, 0.8), 0.5, backdrop_strip(work));
 }

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::array kReaches = {4, 12};  // px on either side: fine grains, and lumps
 constexpr int kSamples = 4;               // columns on either side of the pixel's own
-constexpr double kEnough = 0.25;          // of each side that must be evidence
-constexpr double kUnsharp = 4;            // variance that nothing is without, as for step_contrast
+constexpr double kEnough = 0.25;          // of each side that must be valid
+constexpr double kUnsharp = 4;            // minimum variance, as in step_contrast
 
-constexpr int kSums = 6;  // of four channels, of their squares, and how many
+constexpr int kSums = 6;  // of four channels, of their squares, and the number of pixels
 using Sums = cv::Vec<double, kSums>;
 
 /// Sums of the columns from the top down to each row.
@@ -57,7 +57,7 @@ double variance(const Sums& sums) {
   return std::max(0.0, sums[4] / sums[5] - squares / (sums[5] * sums[5]));
 }
 
-/// A short line, and how far its sides reach up and down from it.
+/// A short line, and how far its two sides extend up and down from it.
 struct Stroke {
   double slope;
   double step;  ///< columns from one sample to the next
@@ -138,14 +138,14 @@ double usual_contrast(std::span<const cv::Mat1f> contrast, double part) {
 
 namespace {
 
-constexpr double kUsualOfBox = 0.75;  // part of all places that show less contrast than an edge
+constexpr double kUsualOfBox = 0.75;  // fraction of places that show less contrast than an edge
                                       // would: a row of flank is worth what it shows beyond that
-constexpr double kLevelCost = 0.06;   // what a column of level crest costs: a box may cut it off
+constexpr double kLevelCost = 0.06;   // cost of a column of level crest: a box may cut it off
 constexpr double kAside = 0.015;      // of the height: how far bumps lie from the rough flank
-constexpr std::array kBows = {-0.08, 0., 0.08};  // real flanks are hollow, or a little round
-constexpr int kSearchStep = 3;                   // px between the places that are tried
-constexpr double kFlattest = 0.1;                // rise a column
-constexpr double kMinHeight = 0.75;              // of the box: it is drawn close around the heap
+constexpr std::array kBows = {-0.08, 0., 0.08};  // real flanks are concave, or slightly convex
+constexpr int kSearchStep = 3;                   // px between the positions tried
+constexpr double kFlattest = 0.1;                // rise per column
+constexpr double kMinHeight = 0.75;              // of the box, which is drawn close around the heap
 
 struct Candidate {
   RoughFlank flank;
@@ -208,7 +208,7 @@ class Search {
   }
 };
 
-/// The best flank that ends at or before each column, seen in the order of `candidates`.
+/// The best flank that ends at or before each column, in the order of `candidates`.
 std::vector<Candidate> best_so_far(std::vector<Candidate> candidates) {
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     const double levelled = candidates[i - 1].worth - kLevelCost * kSearchStep;
@@ -271,12 +271,12 @@ HeapTemplate best_template(const SideContrast& contrast, const std::vector<int>&
 namespace {
 
 constexpr int kTracedSide = 400;     // px; the cost grows with the square
-constexpr double kUsualPart = 0.8;   // part of all places that show less contrast than an edge
+constexpr double kUsualPart = 0.8;   // fraction of places that show less contrast than an edge
                                      // would: a pixel of edge is worth what it shows beyond that
-constexpr double kTurnBack = 0.3;    // what a pixel of falling before the crest costs, or of rising
-                                     // behind it: grains stick out, but a heap has one crest
-constexpr double kDeviation_px = 2;  // of the edge's place: half of the least reach of a contrast
-constexpr double kRoughness = 2;     // weight beside lightness and colours
+constexpr double kTurnBack = 0.3;    // cost of a pixel of fall before the crest, or of rise after
+                                     // it: grains stick out, but a heap has one crest
+constexpr double kDeviation_px = 2;  // of the edge's position: half of a contrast's least reach
+constexpr double kRoughness = 2;     // weight relative to lightness and colours
 
 constexpr double kCorridor = 0.06;  // of the height, on either side of the straight flanks
 
@@ -291,13 +291,13 @@ std::size_t index_of(int rise) {
   return static_cast<std::size_t>(slope);
 }
 
-/// How the best edge came to a place: from which leg, by which rise.
+/// How the best edge reached a place: from which leg, by which rise.
 struct Step {
   std::uint8_t leg = rising;
   std::int8_t rise = 0;
 };
 
-/// Rows between which the edge is sought in a column.
+/// Rows between which the edge is searched for in a column.
 struct Gap {
   int first = 0;
   int last = 0;
@@ -350,7 +350,7 @@ class EdgeSearch {
     return static_cast<std::size_t>(row) * kLegs + static_cast<std::size_t>(leg);
   }
 
-  /// Of a pixel's step along the edge, to a column and row.
+  /// Value of one step of the edge, to a column and row.
   double worth(int col, int row, int rise, int leg) const {
     const double back = std::max(0, leg == rising ? -rise : rise);
     const float contrast = contrast_.at(row, col, rise);
@@ -421,7 +421,7 @@ class EdgeSearch {
   }
 };
 
-/// Lightness, colours and roughness, at the size at which edges are sought.
+/// Lightness, colours and roughness, at the resolution of the edge search.
 cv::Mat4f material_of(const WorkingPicture& work, cv::Size size) {
   std::array<cv::Mat1f, 4> channels;
   cv::split(work.lab, channels.data());

@@ -20,7 +20,7 @@ double grains_95(const FlankFit& flank) {
   return student_95(flank.degrees_of_freedom) * flank.fit_error_rad;
 }
 
-/// Of the mean of two flanks.
+/// For the mean of two flanks.
 double grains_95(const FlankFit& left, const FlankFit& right) {
   const double l = left.fit_error_rad * left.fit_error_rad;
   const double r = right.fit_error_rad * right.fit_error_rad;
@@ -30,9 +30,9 @@ double grains_95(const FlankFit& left, const FlankFit& right) {
   return student_95(freedom) * std::sqrt(l + r) / 2;
 }
 
-/// What moving the window changes beyond what the grains' scatter explains. The halves of a bent
-/// flank are steeper and flatter than its line by about half of the bend: so far a person's choice
-/// of the window may move the number.
+/// The change with the window beyond what the grains' scatter explains. The halves of a bent flank
+/// are steeper and flatter than its line by about half of the bend: the choice of the window may
+/// move the number by that much.
 double window_95(const FlankFit& flank) {
   const double spread = flank.window_spread_rad;
   const double chance = 2 * flank.fit_error_rad;
@@ -40,12 +40,12 @@ double window_95(const FlankFit& flank) {
   return std::max(kWindowFraction * sure, std::min(sure, flank.sure_bend_rad() / 2));
 }
 
-/// What a window that lies too high may change: by how much the flank bends over half of it.
+/// Effect of a window that lies too high: how much the flank bends over half of it.
 double unseen_foot_95(const FlankFit& flank, const Ground& ground) {
   return ground.behind ? std::abs(flank.bend_rad) : 0;
 }
 
-/// What an edge that is only roughly known may turn the line: both its ends may be off.
+/// How far an edge whose position is only roughly known may turn the line: both ends may be off.
 double place_95(const FlankFit& flank, const Segmentation& segmentation) {
   if (segmentation.deviation_px <= 0 || flank.counted() < 2) return 0;
   const double run = std::abs(flank.along[flank.counted() - 1] - flank.along.front());
@@ -68,7 +68,7 @@ double side_95(const FlankFit& flank, const Reading& reading, double disagreemen
                    disagreement_rad});
 }
 
-/// @param best  the reading whose flanks these are, by whichever definition
+/// @param best  the reading these flanks belong to, by whichever definition
 Uncertainty uncertainty_with(const FlankFit& left, const FlankFit& right,
                              const Disagreement& disagreement, const Reading& best) {
   const Ground& ground = best.body.ground;

@@ -15,18 +15,18 @@
 #include "vision/measure/reading.h"
 #include "vision/measure/repose_angle.h"
 
-/// What one side of a heap is worth.
+/// Judges the sides of a heap and the picture as a whole.
 
 namespace repose::vision {
 
 namespace {
 
-/// Tells the user something that does not put the number in doubt.
+/// Tells the user something that does not cast doubt on the number.
 inline void note(ReposeAngle& result, std::string code, std::string message) {
   result.warnings.push_back({std::move(code), std::move(message)});
 }
 
-/// Tells the user why a person must look before the number is used.
+/// Tells the user why the result must be checked before use.
 inline void flag(ReposeAngle& result, std::string code, std::string message) {
   result.status = MeasureStatus::flagged;
   note(result, std::move(code), std::move(message));
@@ -39,22 +39,22 @@ constexpr double kSteepest_rad = 65 * kDegree;
 
 constexpr double kMinR2 = 0.85;
 
-constexpr double kRoundest_rad = 17 * kDegree;  // the upper half of a ball lies 20 degrees flatter
+constexpr double kRoundest_rad = 17 * kDegree;  // the upper half of a ball is 20 degrees flatter
 
 constexpr double kLargestSpread_rad = 12 * kDegree;
 
-// Warnings that ask a person to look.
+// Warnings that require a check by the user.
 constexpr double kDoubtfulBend_rad = 10 * kDegree;
 
 constexpr double kUncoveredSpread_rad = 1 * kDegree;  // beyond the interval
 
-/// Largest change of the angle with what counts as flank: another window, or a high foot with it.
+/// Largest change of the angle with another window, or with a high apron at full weight.
 double spread_rad(const FlankFit& flank) {
   const bool is_high = flank.apron && flank.apron->is_high;
   return is_high ? std::max(flank.window_spread_rad, flank.apron_rad) : flank.window_spread_rad;
 }
 
-/// Why a side is no flank, and what to do; empty when it is one, or absent.
+/// Why a side is not a flank, and what to do; empty if it is one, or absent.
 std::string reason_against(const FlankFit& flank, Side side) {
   const std::string_view name = name_of(side);
   if (flank.status != FlankStatus::ok) return {};
@@ -93,9 +93,8 @@ std::string reason_against(const FlankFit& flank, Side side) {
   return {};
 }
 
-/// Adds what a user should know of a side, and flags what a person must look at. `result` has its
-/// intervals.
-/// @param fitted  by the definition that was asked for; `reading` has the flank by the usual one
+/// Adds warnings about a side, and flags those that require a check. `result` has its intervals.
+/// @param fitted  by the requested definition; `reading` has the flank by the default one
 void warn_of_flank(ReposeAngle& result, const Reading& reading, const FlankFit& fitted, Side side) {
   const FlankFit& flank = reading.flank(side);
   const std::string_view name = name_of(side);
@@ -151,21 +150,21 @@ void warn_of_flank(ReposeAngle& result, const Reading& reading, const FlankFit& 
 
 // Refusals.
 constexpr double kMinConfidence = 0.35;
-constexpr double kMinToldConfidence = 0.1;  // where a person has pointed at the heap
+constexpr double kMinToldConfidence = 0.1;  // if the user has marked the heap
 constexpr double kFewestGrainsInHeight = 2.5;
 constexpr double kLargestSeenPitch_rad = 10 * kDegree;
 
-// Warnings that ask a person to look.
+// Warnings that require a check by the user.
 constexpr double kDoubtfulConfidence = 0.65;
 constexpr double kDoubtfulPitch_rad = 5 * kDegree;
 constexpr double kPitchTolerance_rad = 6 * kDegree;
-constexpr double kMaxOfUnlike = 0.5;  // confidence in what may be no heap
+constexpr double kMaxOfUnlike = 0.5;  // confidence in what may not be a heap
 constexpr double kWideInterval_rad = 5 * kDegree;
 constexpr double kTooUnequal_rad = 15 * kDegree;
-constexpr double kHollow_rad = 3 * kDegree;    // as much as drawn straight flanks never seem to be
+constexpr double kHollow_rad = 3 * kDegree;    // more than drawn straight flanks ever show
 constexpr double kFarApart_rad = 3 * kDegree;  // definitions, beyond the interval
 
-// Warnings to know of.
+// Warnings for information.
 constexpr double kFewGrains = 10;
 constexpr double kFewSteps = 5;
 constexpr double kLowHeap_px = 40;
@@ -192,7 +191,7 @@ double confidence_of(const SelectedCandidate& choice) {
   return boundary * std::exp(-disagreement * disagreement);
 }
 
-/// Why what was found is nothing to measure; empty when it is.
+/// Why there is nothing to measure; empty if there is.
 std::string reason_against_picture(const SelectedCandidate& choice, const MeasureOptions& options,
                                    double confidence) {
   const Reading& best = choice.best;
@@ -243,7 +242,7 @@ std::string reason_against_flanks(const Reading& best) {
   return {};
 }
 
-/// Names all that a person has said: without it the picture gives another number, or none.
+/// Names all hints: without them the picture gives another number, or none.
 void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
   const Hints& hints = options.hints;
   if (hints.empty() && hints.source.empty()) return;
@@ -253,7 +252,7 @@ void warn_of_hints(ReposeAngle& result, const MeasureOptions& options) {
   note(result, "hints", fmt::format("Hints given{}: {}.", where, what));
 }
 
-/// Why it may be no heap; empty when a person has said that it is one.
+/// Why it may not be a heap; empty if the user has said that it is one.
 std::string reason_to_doubt(const SelectedCandidate& choice, const MeasureOptions& options) {
   if (options.hints.heap || choice.is_pointed_at) return {};
   return reason_against_heap(choice.likeness, choice.best.grain);
@@ -276,16 +275,16 @@ bool is_hollow(const FlankFit& flank) {
          flank.sure_bend_rad() > kHollow_rad;
 }
 
-/// What chance may move the tangent at half height by: two standard errors of a line over a third
-/// of the window, which are 3^1.5 of the window's.
+/// By how much the tangent at half height may vary by chance: two standard errors of a line over a
+/// third of the window, which are 3^1.5 of the window's.
 double tangent_chance_rad(const Reading& best) {
   constexpr double kThirdsPerWhole = 5.2, kByChance = 2;
   return kByChance * kThirdsPerWhole * std::max(best.left.fit_error_rad, best.right.fit_error_rad);
 }
 
-/// Adds what the other common definitions say where that lies outside the interval. A rounded crest
-/// and a toe move some of them on every heap; a hollow flank leaves open which one is meant, unless
-/// that was said.
+/// Adds the other common definitions if they lie outside the interval. A rounded crest and a toe
+/// shift some of them on every heap; for a concave flank it is open which one is meant, unless one
+/// was named.
 void warn_of_definitions(ReposeAngle& result, const Reading& best, bool is_named) {
   const double angle = *result.angle_rad;
   double least = angle;
@@ -309,7 +308,7 @@ void warn_of_definitions(ReposeAngle& result, const Reading& best, bool is_named
                    to_degrees(least), to_degrees(most)));
 }
 
-/// The sides by the definition that the angle is by.
+/// The sides by the definition in use.
 struct ShownFlanks {
   const FlankFit& left;
   const FlankFit& right;
@@ -347,8 +346,8 @@ void warn_of_size(ReposeAngle& result, const Reading& best, const MeasureOptions
   }
 }
 
-/// A line inside a heap, lit on one side, is easily taken for its edge: heaps are not that
-/// lopsided.
+/// A line inside a heap that is lit from one side is easily mistaken for its edge: heaps are not
+/// that lopsided.
 void warn_of_unequal_flanks(ReposeAngle& result) {
   if (!result.left.angle_rad || !result.right.angle_rad) return;
   const double difference = std::abs(*result.left.angle_rad - *result.right.angle_rad);
@@ -365,17 +364,17 @@ void warn_of_unequal_flanks(ReposeAngle& result) {
   }
 }
 
-/// How far below the lens's axis the base is seen; 0 of a lens that is not known.
+/// How far below the lens's axis the base is seen; 0 if the lens is unknown.
 double below_axis_rad(const ReposeAngle& result, const MeasureOptions& options) {
   if (!options.pinhole || !result.ground) return 0;
   const double middle = (result.ground->from.y + result.ground->to.y) / 2;
   return std::atan((middle - options.pinhole->centre.y) / options.pinhole->focal_px);
 }
 
-/// A pitch that was given, against the one that the base gives away.
+/// Compares a given pitch with the one implied by the base.
 void warn_of_pitch(ReposeAngle& result, const Ground& ground, const MeasureOptions& options) {
   const double given = *options.camera_pitch_rad;
-  // The bow tells from how far above the base is seen: by a known lens, below its axis.
+  // The bow shows from how far above the base is seen: with a known lens, below its axis.
   const double below_axis = below_axis_rad(result, options);
   const double expected = given + below_axis;
   if (expected < -kPitchTolerance_rad) {
@@ -433,7 +432,7 @@ void warn_of_scene(ReposeAngle& result, const SelectedCandidate& choice,
 
 namespace {
 
-/// By the definition that was asked for; empty where the edge has no angle by that.
+/// By the requested definition; std::nullopt if the edge has no angle by it.
 std::optional<ShownFlanks> shown_flanks(const SelectedCandidate& choice,
                                         const MeasureOptions& options) {
   if (base::is_usual_definition(options.definition)) {

@@ -5,8 +5,8 @@
 
 namespace repose::vision {
 
-/// Decides whether the measured number may be used: fills in status, reason, confidence and
-/// warnings of a result that holds everything else.
+/// Decides whether the measured number may be used: fills in the status, reason, confidence and
+/// warnings of an otherwise complete result.
 void judge(ReposeAngle& result, const SelectedCandidate& choice, const MeasureOptions& options);
 
 }  // namespace repose::vision

@@ -38,11 +38,11 @@ bool is_grey(const Tones& tones) {
 namespace {
 
 constexpr double kBarBlack = 24;      // a bar's brightest pixel, of 255: JPEG ringing stays below
-constexpr double kBarContent = 0.25;  // of a bar's row may be a logo or a timer laid over it
+constexpr double kBarContent = 0.25;  // of a bar's row may be a logo or an overlaid timer
 constexpr double kPictureContent = 0.5;  // of the row after a bar that must be picture
 
-/// Rows of a black bar at the top of `grey`, 0 when there is none. A dark backdrop is no bar: its
-/// rows become lighter little by little, where the heap is, not nearly everywhere at once.
+/// Rows of a black bar at the top of `grey`, 0 if there is none. A dark backdrop is not a bar: its
+/// rows become lighter gradually, where the heap is, not almost everywhere at once.
 int bar_height(const cv::Mat1b& grey) {
   for (int row = 0; row < grey.rows; ++row) {
     if (cv::countNonZero(grey.row(row) > kBarBlack) <= kBarContent * grey.cols) continue;
@@ -68,7 +68,7 @@ cv::Rect without_letterbox(const cv::Mat1b& grey) {
   return inner.width > 0 && inner.height > 0 ? inner : cv::Rect({}, grey.size());
 }
 
-/// The same of each channel, where all are the same.
+/// Resizes a picture, only one channel of it if all are equal.
 cv::Mat3b reduced(const cv::Mat3b& bgr, const cv::Size& size, bool is_grey) {
   cv::Mat small = bgr;
   if (is_grey) cv::extractChannel(bgr, small, 0);
@@ -85,10 +85,10 @@ cv::Rect shrunk(const Box& box, double shrink) {
   return {first, last};
 }
 
-/// L*a*b* of a picture of blue, green and red from 0 to 1.
+/// L*a*b* of a picture with blue, green and red from 0 to 1.
 cv::Mat3f lab_of_colours(const cv::Mat3f& bgr) {
-  // OpenCV builds its tables at the first conversion, without a lock: one thread must do that
-  // alone.
+  // OpenCV builds its tables at the first conversion, without a lock, so only one thread may do
+  // that.
   static const bool tables_ready = [] {
     cv::Mat3f lab;
     cv::cvtColor(cv::Mat3f(1, 1, cv::Vec3f()), lab, cv::COLOR_BGR2Lab);
@@ -100,7 +100,7 @@ cv::Mat3f lab_of_colours(const cv::Mat3f& bgr) {
   return lab;
 }
 
-/// The same where there are only 256 greys.
+/// The same for a picture of only 256 greys.
 cv::Mat3f lab_of_greys(const cv::Mat3b& bgr) {
   static const cv::Mat3f table = [] {
     cv::Mat3f greys(1, 256);
@@ -126,10 +126,10 @@ cv::Mat3f lab_of(const cv::Mat3b& bgr, bool is_grey) {
   return lab_of_colours(scaled);
 }
 
-constexpr double kPointed_px = 2;  // working px: how well a person points at a line
+constexpr double kPointed_px = 2;  // working px: how accurately a person marks a line
 constexpr double kPlace = 0.008;   // of the picture's longest side: radius of a place
-constexpr double kLight = 192;     // a mask's lightness from which it says heap, of 255
-constexpr double kTooDark = 64;    // ... below which it says not
+constexpr double kLight = 192;     // lightness of 255 from which a mask means heap
+constexpr double kTooDark = 64;    // ... below which it means not heap
 
 PictureLine line_of(const Segment& segment, double shrink) {
   const double slope = (segment.to.y - segment.from.y) / (segment.to.x - segment.from.x);
@@ -154,7 +154,7 @@ void add_mask(UserHints& told, const Picture& picture, const WorkingPicture& wor
   cv::cvtColor(mat_of(picture), grey, cv::COLOR_BGR2GRAY);
   cv::resize(grey, grey, work.bgr.size(), 0, 0, cv::INTER_AREA);
   const auto add = [](cv::Mat1b& places, const cv::Mat1b& more) {
-    // A mask may say one of both alone.
+    // A mask may mark only one of the two.
     if (cv::countNonZero(more) == 0) return;
     places = places.empty() ? more : cv::Mat1b(places | more);
   };
@@ -175,7 +175,7 @@ UserHints identified_by(const Hints& hints, const WorkingPicture& work) {
   return told;
 }
 
-/// The ground is not the heap, and no evidence of what lies behind it.
+/// The ground is not the heap, and says nothing about what lies behind it.
 void leave_ground_out(WorkingPicture& work) {
   if (!work.told.ground) return;
   for (int col = 0; col < work.valid_mask.cols; ++col) {

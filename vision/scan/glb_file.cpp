@@ -20,11 +20,11 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view kGlbMagic = "glTF";
-constexpr int kDeepest = 64;  // nodes within each other; a file could name itself for ever
+constexpr int kDeepest = 64;  // nested nodes; a file could contain itself endlessly
 constexpr std::size_t kMostNodes = 100'000;
 constexpr std::size_t kMostCorners = 40'000'000;
 
-// Of the specification, sec. 3.6.2.2 and 3.7.2.1.
+// Constants of the specification, sec. 3.6.2.2 and 3.7.2.1.
 constexpr std::size_t kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 constexpr std::size_t kPoints = 0, kTriangles = 4;
 
@@ -51,7 +51,7 @@ std::size_t width_of(std::size_t component) {
   }
 }
 
-/// A number of a thing, or of bytes.
+/// A non-negative integer: an index, a count or a number of bytes.
 std::size_t whole(const json& number) {
   if (!number.is_number_unsigned()) refuse_glb("a number is not whole, or below 0");
   return number.get<std::size_t>();
@@ -61,7 +61,7 @@ std::size_t whole(const json& object, const char* key, std::size_t otherwise) {
   return object.contains(key) ? whole(object.at(key)) : otherwise;
 }
 
-/// Numbers in the file's binary part, each of one or several components.
+/// An array in the file's binary part, with one or several components per item.
 struct Numbers {
   std::string_view bytes;
   std::size_t count = 0;
@@ -145,7 +145,7 @@ class GlbReader {
     }
   }
 
-  /// Lines, strips and fans are no scan's.
+  /// Lines, strips and fans do not occur in scans.
   void add_primitive(const json& primitive, const Eigen::Affine3d& placing) {
     const std::size_t mode = whole(primitive, "mode", kTriangles);
     if (mode != kPoints && mode != kTriangles) return;

@@ -9,10 +9,10 @@
 
 namespace repose::vision {
 
-/// Triangles as a file names them; without any it is a cloud of points.
+/// Triangles as indexed in a file; without triangles it is a point cloud.
 struct TriangleSoup {
   std::vector<base::Corner> corners;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners that are all there
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices are valid
 };
 
 /// glTF's lengths are metres (glTF 2.0 Specification, sec. 3.4).
@@ -20,8 +20,8 @@ inline constexpr double kGlbUnit_mm = 1000;
 
 bool is_glb(std::string_view bytes);
 
-/// The points and triangles of all meshes of a binary glTF file, where its nodes place them.
-/// Believes no number in it before what it counts is there.
+/// The points and triangles of all meshes of a binary glTF file, transformed by its nodes. All
+/// counts and offsets in the file are checked before use.
 /// @throws base::InputError  what is wrong with it.
 TriangleSoup parse_glb(std::string_view bytes);
 

@@ -23,7 +23,7 @@ constexpr std::size_t kSample = 200'000;
 constexpr double kTolerance = 1.0 / 150;  // of the extent: more than a scanner's noise
 constexpr std::uint64_t kPlaneSeed = 1;
 
-/// Every so many-th, at most kSample.
+/// An even subset of at most kSample points.
 std::vector<Eigen::Vector3d> some_of(const std::vector<Eigen::Vector3d>& points) {
   if (points.size() <= kSample) return points;
   std::vector<Eigen::Vector3d> some;
@@ -43,7 +43,7 @@ std::optional<GroundPlane> plane_through(const std::array<Eigen::Vector3d, 3>& p
   return plane;
 }
 
-/// Sum over the points of how near they are: 1 on the plane, 0 from the tolerance on.
+/// Sum over the points of their closeness: 1 on the plane, 0 from the tolerance on.
 double score(const GroundPlane& plane, const std::vector<Eigen::Vector3d>& points,
              std::size_t stride, double tolerance) {
   double sum = 0;
@@ -101,8 +101,8 @@ CloudExtent extent_of(const std::vector<Eigen::Vector3d>& points) {
 std::vector<Eigen::Vector3d> evenly_spread(const std::vector<Eigen::Vector3d>& points,
                                            const CloudExtent& extent) {
   constexpr double kCells = 120;        // along the extent
-  constexpr double kFarthest = 2;       // extents from the middle: beyond are strays
-  constexpr std::uint64_t kRow = 1024;  // more than the cells there can be along an axis
+  constexpr double kFarthest = 2;       // extents from the middle: points beyond are outliers
+  constexpr std::uint64_t kRow = 1024;  // more than the possible number of cells along an axis
   std::vector<std::pair<std::uint64_t, std::size_t>> cells;
   const std::vector<Eigen::Vector3d> some = some_of(points);
   for (std::size_t k = 0; k < some.size(); ++k) {
@@ -127,7 +127,7 @@ GroundPlane refined(const GroundPlane& plane, const std::vector<Eigen::Vector3d>
   constexpr int kRefinements = 8;
   constexpr std::size_t kFewest = 50;
   constexpr double kReach = 3;      // robust standard deviations
-  constexpr double kSlowest = 0.5;  // of the tolerance that is kept from round to round
+  constexpr double kSlowest = 0.5;  // minimum ratio of the tolerance from one round to the next
   GroundPlane best = plane;
   for (int round = 0; round < kRefinements; ++round) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();

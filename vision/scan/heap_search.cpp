@@ -16,20 +16,20 @@ namespace repose::vision {
 namespace {
 
 constexpr std::size_t kFewestCells = 16;  // of a body
-constexpr double kMostCut = 0.35;         // of a body's rim: beyond, too much of it is not seen
-constexpr double kOtherHeap = 0.2;        // of the largest body's volume, and
-constexpr double kOtherHeight = 0.4;      // ... of its height: a second one is no stray
-constexpr double kOtherSide = 0.3;        // of its volume: below the ground stands something, too
+constexpr double kMostCut = 0.35;     // of a body's rim: above it, too little of the body is seen
+constexpr double kOtherHeap = 0.2;    // of the largest body's volume, and
+constexpr double kOtherHeight = 0.4;  // ... of its height: such a second body is another heap
+constexpr double kOtherSide = 0.3;    // of its volume: there is a body below the ground, too
 
 /// What stands on one side of a plane.
 struct SideOfGround {
   HeightMap map;
-  std::vector<Region> bodies;  ///< that the ground encloses
-  std::vector<Region> cut;     ///< that the scan's edge cuts off
+  std::vector<Region> bodies;  ///< enclosed by the ground
+  std::vector<Region> cut;     ///< cut off by the scan's edge
   ScanFrame frame;
 };
 
-/// A plan over all but the outermost points, in which a cell has six points or more on average.
+/// A grid over all but the outermost points, with an average of at least six points per cell.
 MapPlan plan_of(const std::vector<Eigen::Vector3d>& points, const ScanFrame& frame) {
   constexpr double kPointsPerCell = 6, kBeyond = 1.02;
   constexpr int kMostAcross = 300, kFewestAcross = 24;

@@ -10,13 +10,13 @@
 
 namespace repose::vision {
 
-/// Where the heap is, roughly.
+/// Approximate location of the heap.
 struct FoundHeap {
-  GroundPlane plane;  ///< its normal on the heap's side
+  GroundPlane plane;  ///< its normal points to the heap's side
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   double radius = 0;  ///< half of the longer side of the box around it
-  double area = 0;    ///< of its base, where it was seen
-  double points = 0;  ///< on it
+  double area = 0;    ///< area of its base that was seen
+  double points = 0;  ///< number of points on it
   int others = 0;     ///< smaller bodies beside it
 };
 
@@ -26,9 +26,9 @@ struct HeapSearch {
 };
 
 /// Looks for the body that stands alone on the ground: one search for each plane that may be the
-/// ground, the one with most points first; a wall or a floor can have more than the table.
-/// @param told  the ground, where a person has given it; else it is found
-/// @returns one or more
+/// ground, the one with most points first; a wall or a floor may have more than the table.
+/// @param told  the ground, if the user gave it; otherwise it is searched for
+/// @returns at least one
 std::vector<HeapSearch> find_heaps(const std::vector<Eigen::Vector3d>& points,
                                    const CloudExtent& extent,
                                    const std::optional<GroundPlane>& told);

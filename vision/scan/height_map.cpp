@@ -26,7 +26,7 @@ bool is_wanted(std::size_t number, Points which) {
 
 constexpr std::size_t kParts = 3;  // of a cell along each of its sides
 
-/// A point in its cell.
+/// A point within its cell.
 struct PlacedPoint {
   float height = 0;
   std::uint8_t part = 0;  ///< of the cell
@@ -41,8 +41,8 @@ float median_height(std::span<PlacedPoint> points, std::vector<float>& scratch) 
   return (*middle + *std::max_element(scratch.begin(), middle)) / 2;
 }
 
-/// Mean over the cell's parts of the mean of their points, without those that lie farther from the
-/// median than four robust standard deviations.
+/// Mean over the cell's parts of the mean of their points, excluding points farther from the median
+/// than four robust standard deviations.
 float height_of(std::span<PlacedPoint> points, std::vector<float>& scratch) {
   constexpr std::size_t kFewToJudge = 4;
   constexpr float kFarthest = 4 * 1.4826F;
@@ -69,7 +69,7 @@ float height_of(std::span<PlacedPoint> points, std::vector<float>& scratch) {
   return parts > 0 ? static_cast<float>(mean / parts) : middle;
 }
 
-/// Which part of its cell a place lies in.
+/// The part of its cell that a place lies in.
 std::uint8_t part_of_cell(const MapPlan& plan, const Eigen::Vector2d& place) {
   const Eigen::Vector2d at = (place - plan.corner) / plan.cell;
   const auto part = [](double along) {
@@ -79,7 +79,7 @@ std::uint8_t part_of_cell(const MapPlan& plan, const Eigen::Vector2d& place) {
   return static_cast<std::uint8_t>(part(at.y()) * kParts + part(at.x()));
 }
 
-/// The height of each cell, and how many points it has.
+/// Sets each cell's height and number of points.
 void fill_cells(const std::vector<Eigen::Vector3d>& points, const ScanFrame& frame, double lowest,
                 Points which, HeightMap& map) {
   const std::size_t cells = map.height.size();
@@ -107,13 +107,13 @@ void fill_cells(const std::vector<Eigen::Vector3d>& points, const ScanFrame& fra
   for (const auto& [cell, point] : placed) sorted[next[cell]++] = point;
   std::vector<float> scratch;
   for (std::size_t k = 0; k < cells; ++k) {
-    if (map.points[k] <= below[k]) continue;  // none, or strays over something lower
+    if (map.points[k] <= below[k]) continue;  // none, or stray points above something lower
     map.height[k] = height_of(std::span(sorted).subspan(begin[k], map.points[k]), scratch);
     map.kind[k] = CellKind::seen;
   }
 }
 
-/// Calls for each of the cells' neighbours that are on the map.
+/// Calls `call` for each of the cell's neighbours on the map.
 template <typename Call>
 void for_neighbours(const HeightMap& map, std::size_t cell, const auto& steps, const Call& call) {
   const auto across = static_cast<std::size_t>(map.side());
@@ -123,8 +123,8 @@ void for_neighbours(const HeightMap& map, std::size_t cell, const auto& steps, c
   }
 }
 
-/// Of two points the median is their mean: where one of them hangs in the air, the cell stands out
-/// from all around it by more than these differ, and is not seen.
+/// For two points the median is their mean: if one of them hangs in the air, the cell deviates from
+/// its surroundings by more than these vary, and is marked as not seen.
 void drop_spikes(HeightMap& map) {
   constexpr std::uint32_t kFewPoints = 2;
   constexpr int kFewestAround = 5;
@@ -148,7 +148,7 @@ void drop_spikes(HeightMap& map) {
   }
 }
 
-/// What scanners leave between their points.
+/// Fills the gaps that scanners leave between their points.
 void fill_small_gaps(HeightMap& map) {
   constexpr int kRounds = 3;
   constexpr int kMostOfThem = 5;
@@ -176,7 +176,7 @@ void fill_small_gaps(HeightMap& map) {
   }
 }
 
-/// Cells that are reached from the map's rim through cells that `passes` lets through.
+/// Cells reachable from the map's rim through cells that satisfy `passes`.
 template <typename Passes>
 std::vector<std::uint8_t> reached_from_rim(const HeightMap& map, const Passes& passes) {
   std::vector<std::uint8_t> reached(map.height.size(), 0);
@@ -200,8 +200,8 @@ std::vector<std::uint8_t> reached_from_rim(const HeightMap& map, const Passes& p
   return reached;
 }
 
-/// Laplace's equation in the holes, which continues a slope from both of its sides: relaxation by
-/// Gauss and Seidel, started from the rim inwards.
+/// Solves Laplace's equation in the holes, which continues slopes from both sides: Gauss-Seidel
+/// relaxation, initialised from the rim inwards.
 void fill_holes(HeightMap& map) {
   const auto reached =
       reached_from_rim(map, [&](std::size_t cell) { return map.kind[cell] != CellKind::seen; });
@@ -247,7 +247,7 @@ void fill_holes(HeightMap& map) {
   }
 }
 
-/// The cells that belong together with `first`, and takes them out of `open`.
+/// The cells connected to `first`; removes them from `open`.
 std::vector<std::size_t> taken_together(const HeightMap& map, std::size_t first,
                                         std::vector<std::uint8_t>& open) {
   std::vector<std::size_t> cells = {first};

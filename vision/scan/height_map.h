@@ -11,7 +11,7 @@
 
 namespace repose::vision {
 
-/// Axes on the ground: `u` and `v` lie in it, heights are above it.
+/// Coordinate axes on the ground: `u` and `v` lie in it, heights are above it.
 struct ScanFrame {
   Eigen::Vector3d origin, u, v, up;
 
@@ -26,7 +26,7 @@ struct ScanFrame {
   }
 };
 
-/// The ground's plan: a square of square cells.
+/// A square grid of square cells on the ground.
 struct MapPlan {
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();
   double cell = 1;
@@ -34,15 +34,15 @@ struct MapPlan {
 };
 
 enum class CellKind : std::uint8_t {
-  outside,  ///< nothing was seen here, and nothing farther out
+  outside,  ///< nothing was seen here, nor farther out
   seen,
   hole,  ///< nothing was seen here, but all around
 };
 
-/// Heights above the ground: of each cell the mean over its ninths, each the mean of its points, so
-/// that a steep side that many stands see counts no more than its plan does; without points far
-/// from the cell's median (four robust standard deviations), which hang in the air. The plain
-/// median lay up to 2 % of the volume too high, or too low, as scanners looked from above or
+/// Heights above the ground: each cell's is the mean over its ninths, each the mean of its points,
+/// so that a steep side seen from many stands has no more weight than its plan area. Stray points
+/// far from the cell's median (four robust standard deviations) are excluded. The plain median was
+/// up to 2 % of the volume too high or too low, depending on whether scanners looked from above or
 /// from the side.
 struct HeightMap {
   MapPlan plan;
@@ -63,41 +63,41 @@ struct HeightMap {
     const auto across = static_cast<std::size_t>(side());
     return middle(static_cast<int>(cell % across), static_cast<int>(cell / across));
   }
-  /// NaN where a neighbouring cell is outside.
+  /// NaN if a neighbouring cell is outside.
   double height_at(const Eigen::Vector2d& place) const;
-  /// The cell that a place lies in; the number of cells where it lies in none.
+  /// The cell that contains a place; the number of cells if none does.
   std::size_t cell_of(const Eigen::Vector2d& place) const;
 };
 
-enum class Points { all, even, odd };  ///< the two halves are drawn by a hash of their numbers
+enum class Points { all, even, odd };  ///< the two halves are selected by a hash of their indices
 
-/// Cells are seen where they have points, or where most of their neighbours have; what is enclosed
-/// by seen cells are holes, filled so that each cell is the mean of its four neighbours.
-/// @param lowest  points below it are none of the ground's or the heap's, and a cell with more of
-/// them
-///   than of others is not seen: a floor beside the table
+/// Cells count as seen if they have points, or if most of their neighbours do; cells enclosed by
+/// seen ones are holes, filled so that each is the mean of its four neighbours.
+/// @param lowest  points below it belong neither to the ground nor to the heap, and a cell with
+/// more
+///   of them than of others counts as not seen: a floor beside the table
 HeightMap height_map(const std::vector<Eigen::Vector3d>& points, const ScanFrame& frame,
                      const MapPlan& plan, double lowest, Points which = Points::all);
 
 /// Moving average over (2 reach + 1)^2 cells.
 std::vector<float> smoothed(const HeightMap& map, int reach);
 
-/// A connected part of a map, corners included.
+/// A connected part of a map, including diagonal neighbours.
 struct Region {
   std::vector<std::size_t> cells;
-  double volume = 0;   ///< of what stands on it
+  double volume = 0;   ///< of the heap above it
   double highest = 0;  ///< the height that one in a hundred of its cells exceeds
-  double cut = 0;      ///< which part of its rim has nothing seen beyond it
+  double cut = 0;      ///< fraction of its rim with nothing seen beyond it
 };
 
-/// The parts of the map that are higher than a threshold, largest volume first; those of fewer
+/// The parts of the map above a threshold, largest volume first; those with fewer than `fewest`
 /// cells are left out.
 std::vector<Region> regions_above(const HeightMap& map, double threshold, std::size_t fewest);
 
-/// 1 in the cells of the region and in those that it encloses.
+/// 1 in the cells of the region and in those enclosed by it.
 std::vector<std::uint8_t> mask_of(const HeightMap& map, const Region& region);
 
-/// With all cells whose middles are within `reach` cells of one of the mask's.
+/// Adds all cells with centres within `reach` cells of the mask's.
 std::vector<std::uint8_t> dilated(const HeightMap& map, const std::vector<std::uint8_t>& mask,
                                   int reach);
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t kMaxPoints = 40'000'000;
 constexpr double kLargestCoordinate = 1e9;
-// Points spread over a surface.
+// Number of points spread over a surface.
 constexpr std::size_t kPerTriangle = 2, kFewestOnSurface = 2'000'000, kMostOnSurface = 10'000'000;
 
 static_assert(std::endian::native == std::endian::little, "STL files are little-endian");
@@ -46,7 +46,7 @@ void add_triangle(TriangleSoup& soup, const std::array<base::Corner, 3>& corners
   soup.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// 80 bytes of text, a number, and 50 bytes for each triangle: its normal, three corners, two more.
+/// 80 bytes of text, the count, and 50 bytes per triangle: its normal, three vertices, two more.
 TriangleSoup parse_binary_stl(std::string_view bytes) {
   constexpr std::size_t kHead = 84, kEach = 50, kNormal = 12, kPlace = 12;
   if (bytes.size() < kHead) wrong("the file ends within its head");
@@ -101,7 +101,8 @@ TriangleSoup parse_text_stl(std::string_view rest) {
   return soup;
 }
 
-/// Files of text begin with "solid"; so do the heads of some binary ones, whose size tells.
+/// Text files begin with "solid"; so do the headers of some binary ones, which are recognised by
+/// their size.
 TriangleSoup parse_stl(std::string_view bytes) {
   constexpr std::size_t kHead = 84, kEach = 50;
   std::uint32_t count = 0;
@@ -111,7 +112,7 @@ TriangleSoup parse_stl(std::string_view bytes) {
   return is_text ? parse_text_stl(bytes) : parse_binary_stl(bytes);
 }
 
-/// Faces of more corners are cut into a fan: they are flat, or nearly.
+/// Polygons are split into fans of triangles: they are flat, or nearly so.
 TriangleSoup soup_of(base::PolygonSurface surface) {
   TriangleSoup soup{.corners = std::move(surface.corners), .triangles = {}};
   for (const std::vector<int>& face : surface.faces) {
@@ -129,10 +130,10 @@ bool is_finite(const base::Corner& corner) {
                      [](double coordinate) { return std::abs(coordinate) <= kLargestCoordinate; });
 }
 
-/// Points all over the triangles, as many on each as its area asks for: those of a sequence that
-/// fills a square evenly, folded into the triangle. Rows of points would miss the tips of slivers.
-/// Source of the sequence: Roberts (2018), The unreasonable effectiveness of quasirandom sequences
-/// (R2: multiples of 1/g and 1/g^2, g^3 = g + 1).
+/// Points all over the triangles, in proportion to their area: a sequence that fills a square
+/// evenly, folded into the triangle. Rows of points would miss the tips of slivers. Source of the
+/// sequence: Roberts (2018), The unreasonable effectiveness of quasirandom sequences (R2: multiples
+/// of 1/g and 1/g^2, g^3 = g + 1).
 std::vector<base::Corner> spread_over(const TriangleSoup& soup) {
   constexpr double kG = 1.32471795724474602596;
   const auto at = [&](const std::array<std::uint32_t, 3>& triangle, std::size_t k) {
@@ -171,7 +172,7 @@ TriangleSoup parsed(std::string_view bytes, const std::string& ending) {
   wrong(fmt::format("it does not begin as a {} file does", ending.empty() ? "scan" : ending));
 }
 
-/// Leaves out triangles with a corner that has no place, and of a cloud such points.
+/// Removes triangles with a vertex that is not finite; in a point cloud, such points.
 void drop_not_finite(TriangleSoup& soup, Scan& scan) {
   const auto bad = std::count_if(soup.corners.begin(), soup.corners.end(),
                                  [](const auto& corner) { return !is_finite(corner); });

@@ -14,17 +14,17 @@ namespace repose::vision {
 namespace {
 
 constexpr int kWidth_px = 960;
-constexpr double kAside = 1.3;     // the picture's half width by the base's farthest reach
-constexpr double kHeadroom = 1.3;  // its height above the ground by the heap's
+constexpr double kAside = 1.3;     // the picture's half width / the base's largest radius
+constexpr double kHeadroom = 1.3;  // the picture's height above the ground / the heap's
 constexpr int kBelowGround_px = 40;
 constexpr std::array<std::array<int, 2>, 2> kNeighbours{{{1, 0}, {0, 1}}};
 
-/// Heights along one line of sight, column by column, in pixels.
+/// Highest points along the lines of sight, column by column, in pixels.
 class Skyline {
  public:
   explicit Skyline(int columns) : highest_(static_cast<std::size_t>(columns), 0) {}
 
-  /// The edge between two places; heights below the ground hide nothing.
+  /// Adds the edge between two places; heights below the ground hide nothing.
   void add(double along, double height, double other_along, double other_height) {
     if (along > other_along) {
       std::swap(along, other_along);

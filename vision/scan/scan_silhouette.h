@@ -5,25 +5,24 @@
 #include "vision/picture/picture.h"
 #include "vision/scan/scanned_heap.h"
 
-/// A scanned heap as a camera sees it that is far away and level: black before white, as simulated
-/// heaps are drawn, so that it can be measured and compared as a photograph is.
+/// A scanned heap as seen by a distant, level camera: black on white, like the pictures of
+/// simulated heaps, so that it can be measured and compared like a photograph.
 
 namespace repose::vision {
 
-/// How a scan's silhouettes are drawn: at one scale from all sides.
+/// Draws a scan's silhouettes, at one scale from all sides.
 class ScanSilhouettes {
  public:
-  /// @param heap  that was not refused: its map is needed
+  /// @param heap  not refused, as its map is needed
   /// @throws base::InputError  it was refused, with its reason.
   explicit ScanSilhouettes(const ScannedHeap& heap);
 
-  /// None: the file's unit is not known.
+  /// std::nullopt: the file's unit is unknown.
   std::optional<double> m_per_px() const { return m_per_px_; }
 
-  /// The silhouette of the surface over the heap's base and toe. Between the middles of
-  /// neighbouring cells the surface is a plane's edge, so that its silhouette is that of these
-  /// edges.
-  /// @param azimuth_rad  the direction of the picture's right, about the axis
+  /// The silhouette of the surface over the heap's base and toe. The centres of neighbouring cells
+  /// are joined by straight edges, whose silhouette is drawn.
+  /// @param azimuth_rad  the direction of the picture's right-hand side, about the axis
   Picture seen_from(double azimuth_rad) const;
 
  private:

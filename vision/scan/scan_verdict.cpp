@@ -24,7 +24,7 @@ constexpr double kWide_rad = 5 * kDegree;
 constexpr double kHollowFlank_rad = 3 * kDegree;
 constexpr double kFarDefinition_rad = 3 * kDegree;
 
-constexpr int kFewestSectors = 3;  // of eight: a plane through less of a ring may lean
+constexpr int kFewestSectors = 3;  // of eight: over less of a ring, a plane may be tilted
 constexpr int kAllAround = 6;
 constexpr double kMostHoles = 0.25;  // of the base
 constexpr double kManyHoles = 0.05;
@@ -54,7 +54,7 @@ std::string why_few(const Slices& slices, int seen) {
       seen, kAzimuths, any->azimuth.reason);
 }
 
-/// What its flanks' shape says against a heap.
+/// Why the shape of the flanks is not that of a heap.
 std::optional<std::string> shape_reason(const Slices& slices) {
   const double angle = *slices.mean();
   const double bend = slices.mean_of([](const FlankFit& fit) { return fit.bend_rad; });
@@ -135,7 +135,7 @@ void warn_of_what_was_seen(const Slices& slices, int others, ScannedHeap& heap) 
   }
 }
 
-/// A plate, a disc or a dish that is no wider than the heap upon it looks like a step at its foot.
+/// A plate, a disc or a dish no wider than the heap on it appears as a step at its foot.
 void warn_of_step(const Slices& slices, ScannedHeap& heap) {
   constexpr double kShort = 0.85;  // of the run to where the flank's line meets the ground
   double reach = 0, run = 0;
@@ -154,7 +154,7 @@ void warn_of_step(const Slices& slices, ScannedHeap& heap) {
                   100 * (1 - reach / run), base::field("ground plane")));
 }
 
-/// A disc wider than the heap, or a hollow that it stands in.
+/// A disc wider than the heap, or a hollow in which it stands.
 void warn_of_ledge(std::optional<double> ledge, ScannedHeap& heap) {
   if (!ledge) return;
   add_flag(
@@ -168,7 +168,7 @@ void warn_of_ledge(std::optional<double> ledge, ScannedHeap& heap) {
           base::field("ground plane")));
 }
 
-/// Sizes that no heap has that anybody scans: the unit is another.
+/// Sizes that no scanned heap has: the unit must be another.
 void warn_of_size(ScannedHeap& heap) {
   constexpr double kSmallest_mm = 1, kLargest_mm = 200e3;  // across
   if (!heap.base_mm) return;

@@ -29,8 +29,8 @@ namespace {
 constexpr std::size_t kFewestPointsOfScan = 2000;
 constexpr double kFewestAcross = 50;  // 12 points in a slice's window
 
-/// The same heap on a map of half of its points, with cells twice as large, so that as many points
-/// are in each.
+/// The same heap on a map of half of its points, with cells twice as large in area, so that each
+/// has as many points.
 StandingScan half_of(const std::vector<Eigen::Vector3d>& points, const Survey& survey,
                      Points which) {
   const MapPlan& plan = survey.heap.map.plan;
@@ -48,9 +48,9 @@ StandingScan half_of(const std::vector<Eigen::Vector3d>& points, const Survey& s
   return half;
 }
 
-/// Standard error of the mean angle from the points' noise: half of what the two halves of the
-/// points differ by has the error of the whole. The azimuths' scatter is a robust one, since what
-/// happens to a single slice of half of the points need not happen to the whole.
+/// Standard error of the mean angle from the points' noise: half of the difference between the two
+/// halves of the points has the error of the whole. The azimuths' scatter is estimated robustly,
+/// since an outlier in a slice of half of the points need not occur in the whole.
 double noise_error_rad(const std::vector<Eigen::Vector3d>& points, const Survey& survey,
                        const ScanOptions& options) {
   const Slices one = slices_of(half_of(points, survey, Points::even), options);
@@ -68,7 +68,7 @@ double noise_error_rad(const std::vector<Eigen::Vector3d>& points, const Survey&
   return std::hypot(kMadToSigma * median(sizes) / std::sqrt(n), median(differences));
 }
 
-/// Half-width of the mean's 95 % interval for azimuths that were not seen.
+/// Half-width of the mean's 95 % interval due to azimuths that were not seen.
 double unseen_95(const Slices& slices) {
   std::vector<double> octants;
   constexpr std::size_t kEach = kAzimuths / kSectors;
@@ -88,11 +88,10 @@ double unseen_95(const Slices& slices) {
   return base::student_t_quantile(.975, n - 1) * sd_of(octants) * std::sqrt(unseen / n);
 }
 
-/// How well the surface between the grains is known: what a stand sees of the gaps depends on where
-/// it looks from. A quarter of the robust standard deviation of the heights around their mean over
-/// a tenth of the base's radius: our own convention, by how much scans of simulated heaps without
-/// any noise came out too high or too low as their stands stood higher or lower (bench
-/// scan_accuracy).
+/// Uncertainty of the surface between the grains: what a stand sees of the gaps depends on its
+/// viewpoint. A quarter of the robust standard deviation of the heights around their mean over a
+/// tenth of the base's radius: our own convention, from the deviations of noise-free scans of
+/// simulated heaps with higher and lower stands (bench scan_accuracy).
 double skin_of(const Survey& survey) {
   constexpr double kOfRadius = 0.1, kOfRelief = 0.25;
   const HeightMap& map = survey.heap.map;
@@ -140,7 +139,7 @@ struct Volume {
 
 /// See measure_scan().
 Volume volume_of(const Survey& survey, double angle_rad) {
-  constexpr double kHoleDoubt = 0.1;  // of what was filled in
+  constexpr double kHoleDoubt = 0.1;  // of the filled-in volume
   constexpr double kGridDoubt = 0.002;
   constexpr double kFlattestToe_rad = 8 * kDegree, kToeReach = 1.5;
   const HeightMap& map = survey.heap.map;
@@ -196,7 +195,7 @@ std::optional<GroundPlane> told_plane(const ScanOptions& options) {
   return plane;
 }
 
-/// The points that say something: scanners write what they did not see as 0,0,0.
+/// The usable points: scanners write points they did not see as 0,0,0.
 std::vector<Eigen::Vector3d> usable_points(const Scan& scan, ScannedHeap& result) {
   constexpr std::size_t kMostAtOrigin = 10;
   const auto is_origin = [](const base::Corner& at) {
@@ -262,14 +261,14 @@ void draw_for_plots(const Survey& survey, const ScanOptions& options, ScannedHea
       Segment{{along.front(), line.y(along.front())}, {along.back(), line.y(along.back())}};
 }
 
-/// Lengths in millimetres, or why there are none.
+/// Sizes in millimetres, or why there are none.
 void add_sizes(const Survey& survey, const Volume& volume, double angle_rad, ScannedHeap& result) {
   if (!result.unit_mm) {
     result.size_reason = fmt::format("the file does not say what its unit is. Fix: give the {}.",
                                      base::field("unit"));
     return;
   }
-  constexpr double kMmPerCell = 0.5;  // rounding to cells, at either end
+  constexpr double kMmPerCell = 0.5;  // rounding to cells, at each end
   constexpr double kMm3PerMl = 1000;
   const double cell = survey.heap.map.plan.cell, mm = *result.unit_mm;
   const double level = survey.level_95() + survey.sunk;
@@ -289,7 +288,7 @@ void add_sizes(const Survey& survey, const Volume& volume, double angle_rad, Sca
   result.volume_ml = Estimate{volume.volume * ml, volume.half_width * ml};
 }
 
-/// What is said to a person, with their words for what they may give.
+/// Inserts the user's names for the options into all messages.
 void name_fields(base::FieldNames names, ScannedHeap& result) {
   result.angle.reason = base::with_names(result.angle.reason, names);
   result.size_reason = base::with_names(result.size_reason, names);
@@ -304,7 +303,7 @@ ScannedHeap refused(ScannedHeap result, std::string reason) {
   return result;
 }
 
-/// Measures the heap that was found on a plane; `result` has the points' numbers.
+/// Measures the heap found on a plane; `result` has the numbers of points.
 ScannedHeap measured_on(const std::vector<Eigen::Vector3d>& points, const HeapSearch& search,
                         const ScanOptions& options, ScannedHeap result) {
   if (!search.heap) return refused(std::move(result), search.reason);

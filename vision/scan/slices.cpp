@@ -18,7 +18,7 @@ namespace repose::vision {
 namespace {
 
 constexpr double kStep_rad = 2 * std::numbers::pi / kAzimuths;
-constexpr double kSteepestSlice_rad = 70 * kDegree;  // nothing loose stands steeper
+constexpr double kSteepestSlice_rad = 70 * kDegree;  // no loose grains stand steeper
 constexpr double kMostUnseen = 0.3;                  // of the window's length in a slice
 
 Eigen::Vector2d place_at(const StandingScan& heap, double azimuth_rad, double radius) {
@@ -29,12 +29,12 @@ Eigen::Vector2d place_at(const StandingScan& heap, double azimuth_rad, double ra
 struct HalfProfile {
   std::vector<double> height;
   bool leaves_scan = false;
-  double unseen = 0;  ///< which part of the window's points are in holes
+  double unseen = 0;  ///< fraction of the window's points that are in holes
 };
 
-/// What lies along one half-plane, in steps of a cell from the axis.
+/// Samples along one half-plane, in steps of a cell from the axis.
 struct Ray {
-  std::vector<double> height;      ///< in cells; NaN where nothing is seen
+  std::vector<double> height;      ///< in cells; NaN if nothing is seen
   std::vector<std::uint8_t> kind;  ///< 1: on the base, 2: in a hole of it, 0: beyond
 };
 
@@ -63,7 +63,7 @@ std::vector<Ray> rays_of(const StandingScan& heap) {
 /// Mean of the rays of a sector, as far as half of them are seen and on the base.
 HalfProfile half_profile(const std::vector<Ray>& rays, int middle, double crest,
                          const ScanOptions& options) {
-  constexpr std::size_t kNear = 3;  // cells: the axis may stand beside the body's only tip
+  constexpr std::size_t kNear = 3;  // cells: the axis may be next to the body's only tip
   constexpr int kInSector = 2 * kRaysBeside + 1;
   HalfProfile profile;
   int in_window = 0, in_holes = 0;
@@ -93,7 +93,7 @@ HalfProfile half_profile(const std::vector<Ray>& rays, int middle, double crest,
   return profile;
 }
 
-/// Two opposite half-planes as one profile, the first to the left.
+/// Joins two opposite half-planes to one profile, the first on the left.
 Profile joined(const HalfProfile& left, const HalfProfile& right, double crest_height) {
   Profile profile;
   const auto reach = static_cast<int>(left.height.size());
@@ -134,7 +134,7 @@ Slice slice_of(double azimuth_rad, const HalfProfile& profile, FlankFit fit) {
   return slice;
 }
 
-/// Means over what most pairs of half-planes have.
+/// Means of the definitions available for at least half of the pairs of half-planes.
 class DefinitionMeans {
  public:
   void add(const std::vector<NamedAngle>& definitions) {
@@ -167,8 +167,8 @@ class DefinitionMeans {
 
 namespace {
 
-/// The height from which on the heap is seen all around: 20 % of it, or more where the scan's edge
-/// cuts it off.
+/// The height above which the heap is seen all around: 20 % of it, or more if the scan's edge cuts
+/// it off.
 double lowest_whole_level(const StandingScan& heap) {
   constexpr double kLow = 0.2, kHighest = 0.7;
   double low = kLow * heap.height;
@@ -190,7 +190,7 @@ double lowest_whole_level(const StandingScan& heap) {
 
 void set_crest_and_axis(StandingScan& heap) {
   constexpr double kHigh = 0.8;
-  constexpr double kOfBase = 1.0 / 60;  // as lightly as a picture's edge is (descent_of)
+  constexpr double kOfBase = 1.0 / 60;  // like the light smoothing of a picture's edge (descent_of)
   const auto cells =
       static_cast<double>(std::count(heap.base.begin(), heap.base.end(), std::uint8_t{1}));
   const double across = 2 * std::sqrt(cells / std::numbers::pi);

@@ -14,15 +14,15 @@
 
 namespace repose::vision {
 
-/// A heap on its map.
+/// A heap on its height map.
 struct StandingScan {
   HeightMap map;
-  std::vector<std::uint8_t> base;  ///< the cells that are higher than the threshold, with holes
+  std::vector<std::uint8_t> base;  ///< the cells above the threshold, including holes
   Eigen::Vector2d axis = Eigen::Vector2d::Zero();
   double height = 0;  ///< of the crest, on the lightly smoothed map
 };
 
-/// Height of the crest and place of the axis, from map and base.
+/// Sets the crest's height and the axis, from map and base.
 void set_crest_and_axis(StandingScan& heap);
 
 /// The same heap with all heights changed by `rise`.
@@ -34,14 +34,14 @@ struct Slice {
   double reach = 0;  ///< cells from the axis to the base's end
 };
 
-/// The heap's flanks along the half-planes.
+/// The heap's flanks along all half-planes.
 struct Slices {
   std::vector<Slice> all;
-  std::vector<NamedAngle> definitions;  ///< means over the opposite half-planes; only if asked for
+  std::vector<NamedAngle> definitions;  ///< means over the opposite half-planes; only if requested
 
-  std::vector<double> angles() const;  ///< of those that have one
+  std::vector<double> angles() const;  ///< of those with an angle
   std::optional<double> mean() const;
-  /// Mean over those that have an angle.
+  /// Mean over those with an angle.
   template <typename Value>
   double mean_of(const Value& value) const {
     double sum = 0;
@@ -58,8 +58,8 @@ struct Slices {
 Slices slices_of(const StandingScan& heap, const ScanOptions& options,
                  bool has_definitions = false);
 
-/// Mean height of the heap at each distance from its axis, in steps of a cell, as long as half of
-/// the azimuths are on its base.
+/// Mean height of the heap at each distance from its axis, in steps of one cell, as long as at
+/// least half of the azimuths are on its base.
 std::vector<Point> mean_profile(const StandingScan& heap);
 
 }  // namespace repose::vision

@@ -39,7 +39,7 @@ double Survey::base_radius() const {
 
 MapPlan plan_around(const FoundHeap& found) {
   constexpr double kBeyondHeap = 1.7;   // half of the plan's side, in radii of the heap
-  constexpr double kCellsAcross = 240;  // of the heap, where there are points enough
+  constexpr double kCellsAcross = 240;  // of the heap, if there are enough points
   constexpr double kPointsPerCell = 6;
   const double sparse = std::sqrt(kPointsPerCell * found.area / std::max(1.0, found.points));
   const double cell = std::max(2 * found.radius / kCellsAcross, sparse);
@@ -57,7 +57,7 @@ struct AroundHeap {
 };
 
 AroundHeap ground_around(const Survey& survey) {
-  constexpr double kClear = 0.1;  // of the base's radius between heap and ground
+  constexpr double kClear = 0.1;  // of the base's radius, between heap and ground
   const HeightMap& map = survey.heap.map;
   const double radius = survey.base_radius() / map.plan.cell;
   const int clear = std::max(2, static_cast<int>(std::lround(kClear * radius)));
@@ -97,10 +97,10 @@ bool draw_map(const std::vector<Eigen::Vector3d>& points, const FoundHeap& found
   return survey.heap.height > survey.threshold;
 }
 
-/// A scan's ground may be bent as a whole, in all sectors alike: by a bowl or a dome fitted to what
-/// is seen of it around the heap, z = a + c r^2, it would lie elsewhere below the heap's axis than
-/// the plane does by c mean(r^2), and the heap would be bent with it, by c R^2 / 2 in the mean over
-/// its base of the radius R.
+/// A scan's ground may be bent as a whole, in all sectors alike: with a bowl or a dome z = a + c
+/// r^2, fitted to its visible part around the heap, the ground below the heap's axis differs from
+/// the plane by c mean(r^2), and the heap would be bent with it, by c R^2 / 2 on average over its
+/// base of radius R.
 void find_bow(const std::vector<Eigen::Vector3d>& places, double tolerance, Survey& survey) {
   std::vector<Eigen::Vector3d> ground;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -127,7 +127,7 @@ void find_bow(const std::vector<Eigen::Vector3d>& places, double tolerance, Surv
 bool survey_heap(const std::vector<Eigen::Vector3d>& points, const FoundHeap& found, bool is_told,
                  Survey& survey) {
   constexpr int kRounds = 2;
-  constexpr double kNearGround = 0.05;  // of the heap's height, and at least
+  constexpr double kNearGround = 0.05;  // of the heap's height, as a minimum
   constexpr double kWithinNoise = 4;
   for (int round = 0; round < kRounds; ++round) {
     if (!draw_map(points, found, survey)) return false;
@@ -161,9 +161,9 @@ namespace {
 
 constexpr double kRing = 1.0 / 30;  // of the base's radius
 
-/// What is seen at one distance from the axis.
+/// Heights at one distance from the axis.
 struct Ring {
-  double level = 0;   ///< median height; 0 where too little is seen
+  double level = 0;   ///< median height; 0 if too little is seen
   double spread = 0;  ///< robust standard deviation
 };
 
@@ -173,7 +173,7 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
-/// From the axis to the map's edge, but for what only its corners have.
+/// Rings from the axis to the map's edge, without its corners.
 std::vector<Ring> rings_around(const Survey& survey) {
   constexpr std::size_t kFewest = 24;  // cells
   constexpr double kSdPerMad = 1.4826;
@@ -206,7 +206,7 @@ std::optional<double> ledge_around(const Survey& survey) {
   const double noise = 3 * survey.plane.noise;
   const double rise = kSteepest * kRing * survey.base_radius() + survey.plane.noise;
   const std::vector<Ring> rings = rings_around(survey);
-  std::size_t run = 0;  // rings up to this one that are a ledge
+  std::size_t run = 0;  // number of consecutive ledge rings up to this one
   for (std::size_t k = 1; k + kStepRings < rings.size(); ++k) {
     const auto& [level, spread] = rings[k];
     const double height = std::abs(level);

@@ -20,9 +20,9 @@ cv::Mat greatest_difference(const cv::Mat& a, const cv::Mat& b) {
 
 namespace {
 
-constexpr double kOtherGrey = 18;  ///< grey levels between two things
+constexpr double kOtherGrey = 18;  ///< grey levels by which two things differ
 
-/// Mean step of brightness across a region's border.
+/// Mean brightness gradient along a region's border.
 double edge_around(const cv::Mat& picture, const cv::Mat& border) {
   cv::Mat grey, across, down, size;
   cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
@@ -32,8 +32,8 @@ double edge_around(const cv::Mat& picture, const cv::Mat& border) {
   return cv::mean(size, border)[0];
 }
 
-/// Where the film's beginning and end differ, the one with much less of an edge around it is the
-/// scene.
+/// Where the video's beginning and end differ, the one with a much weaker edge around the
+/// difference is the scene.
 void settle_lasting_things(const cv::Mat& early, const cv::Mat& late, cv::Mat& scene) {
   const cv::Mat differs = greatest_difference(early, late) > kOtherGrey;
   cv::Mat clean, labels, stats, centres;
@@ -62,7 +62,7 @@ void settle_lasting_things(const cv::Mat& early, const cv::Mat& late, cv::Mat& s
   }
 }
 
-/// From the middle of the frames' differences, which what moves does not reach.
+/// From the median of the frames' differences, which moving objects do not affect.
 double noise_of(const std::vector<cv::Mat>& samples, const cv::Mat& scene) {
   std::vector<int> counts(256);
   std::int64_t total = 0;
@@ -115,7 +115,7 @@ namespace {
 constexpr int kReducedSide_px = 960;
 constexpr std::size_t kMaxBlobs = 24;
 
-/// Of the channel that differs most.
+/// Difference in the channel that differs most.
 cv::Mat colour_difference(const cv::Mat& a, const cv::Mat& b) {
   cv::Mat difference;
   cv::absdiff(a, b, difference);
@@ -130,8 +130,8 @@ cv::Mat colour_difference(const cv::Mat& a, const cv::Mat& b) {
   return greatest;
 }
 
-/// The difference that all but a few of a thing's pixels stay below: where nothing of the
-/// background or a shadow is mixed in.
+/// The difference that all but a few of a thing's pixels stay below: that of pixels with no
+/// background or shadow mixed in.
 double full_difference(const cv::Mat& difference, const cv::Mat& mask) {
   std::vector<uchar> values;
   for (int row = 0; row < mask.rows; ++row) {
@@ -145,21 +145,21 @@ double full_difference(const cv::Mat& difference, const cv::Mat& mask) {
   return *at;
 }
 
-/// How far a colour has come from the background's to the thing's own: 0 to 1, or beyond.
+/// Position of a colour between the background's (0) and the thing's own (1); may lie beyond.
 double mixed_part(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing) {
   const cv::Vec3d step = thing - cv::Vec3d(background);
   const double length = step.dot(step);
   return length > 0 ? (cv::Vec3d(seen) - cv::Vec3d(background)).dot(step) / length : 0;
 }
 
-/// As cover_of(), where there are no shadows: above a thing's centre. Its lit side, whose colour is
-/// nearer to a bright backdrop's, counts whole.
+/// Like cover_of(), for places without shadows: above a thing's centre. Its lit side, whose colour
+/// is closer to that of a bright backdrop, has full weight.
 double lit_cover_of(const cv::Vec3b& seen, const cv::Vec3b& background, const cv::Vec3d& thing) {
   constexpr double kNone = .3, kFull = .6;
   return std::clamp((mixed_part(seen, background, thing) - kNone) / (kFull - kNone), 0.0, 1.0);
 }
 
-/// Of the pixels that show nothing but the thing.
+/// Mean colour of the pixels that show nothing but the thing.
 cv::Vec3d own_colour(const cv::Mat& frame, const cv::Mat& difference, const cv::Mat& mask,
                      double full) {
   constexpr double kPure = .75;
@@ -204,7 +204,7 @@ std::vector<cv::Rect> BlobFinder::rough_places(const cv::Mat& small, cv::Mat& la
                                                std::vector<int>& numbers) const {
   cv::Mat difference = colour_difference(small, reduced_);
   cv::GaussianBlur(difference, difference, {3, 3}, 0);
-  // In grey levels; films' compression leaves less.
+  // In grey levels; video compression leaves smaller differences.
   constexpr double kMinDifference = 12, kSigmas = 5;
   const double least = std::max(kMinDifference, kSigmas * background_.noise);
   const cv::Mat mask = difference > least;
@@ -257,7 +257,7 @@ Blob BlobFinder::refine(const cv::Mat& frame, const cv::Rect& place, const cv::M
   return blob;
 }
 
-/// From how much of each column about the centre is covered above the centre's row.
+/// From the covered fraction of the columns near the centre, above the centre's row.
 double BlobFinder::crest(const cv::Mat& seen, const cv::Mat& mask, const Blob& blob) const {
   constexpr double kMiddle = .35;  // of half the width
   const double half = std::max(1.0, kMiddle * std::sqrt(blob.area_px / CV_PI));

@@ -23,7 +23,7 @@ std::vector<SeenAt> along_gravity(const GrainPath& path, const FilmGrains& film,
   return seen;
 }
 
-/// The direction of gravity, from the bend of the flights sideways.
+/// The direction of gravity, from the sideways curvature of the flights.
 Estimate lean_of(const std::vector<SeenAt>& seen, const Flights& flights) {
   std::vector<SeenAt> sideways = seen;
   for (SeenAt& one : sideways) std::swap(one.x_px, one.y_px);
@@ -41,7 +41,8 @@ Estimate lean_of(const std::vector<SeenAt>& seen, const Flights& flights) {
           2 / std::sqrt(weights) / flights.gravity_px_s2};
 }
 
-/// What a parabola may be off by: centres are better, but air and lens bend long flights.
+/// Deviation allowed from a parabola: centres are more accurate, but air and lens bend long
+/// flights.
 double tolerance_px(const std::vector<SeenAt>& seen) {
   constexpr double kMin_px = .5, kOfWay = .0015;
   const auto by_height = [](const SeenAt& a, const SeenAt& b) { return a.y_px < b.y_px; };
@@ -49,8 +50,8 @@ double tolerance_px(const std::vector<SeenAt>& seen) {
   return seen.empty() ? kMin_px : std::max(kMin_px, kOfWay * (lowest->y_px - highest->y_px));
 }
 
-/// Whether a flight goes on in the next one as if it were one: nothing strikes the grain between
-/// them, which would change its speed by more than gravity does in a frame.
+/// Whether two flights are one: no impact between them, which would change the speed by more than
+/// gravity does in a frame.
 bool goes_on(const FlightFit& fit, std::size_t k, double interval_s) {
   const FlightCurve& before = fit.curves()[k];
   const FlightCurve& after = fit.curves()[k + 1];
@@ -64,7 +65,7 @@ bool goes_on(const FlightFit& fit, std::size_t k, double interval_s) {
   return std::abs(apart_px) < kNear_px && std::abs(faster_px_s) < fit.pull().gravity * interval_s;
 }
 
-/// Flights that were found in two pieces, because air or the camera's readout bend them, are one.
+/// Joins flights that were found in two pieces because of air drag or the camera's readout.
 bool join_pieces(Flights& flights, const FlightFit& fit, double interval_s) {
   std::vector<FlightSpan> joined = {flights.spans.front()};
   for (std::size_t k = 1; k < flights.spans.size(); ++k) {
@@ -79,7 +80,7 @@ bool join_pieces(Flights& flights, const FlightFit& fit, double interval_s) {
   return has_joined;
 }
 
-/// As wide as a disc of its area is in most frames.
+/// Radius of a disc with the median area.
 double radius_px(const GrainPath& path) {
   std::vector<double> areas;
   for (const Sighting& one : path) areas.push_back(one.blob.area_px);
@@ -128,13 +129,13 @@ DropCandidate drop_candidate(const GrainPath& path, const FilmGrains& film) {
 
 namespace {
 
-/// When a flight leaves the floor and when it comes down on it, had it nothing else in its way.
+/// When a flight would leave the floor and land on it with nothing else in its way.
 struct FloorTimes {
   double start_s = 0;
   double landing_s = 0;
 };
 
-/// Without air, whose part is small. None of a flight that does not reach so high.
+/// Without air drag, which is small. std::nullopt if the flight stays below the floor's level.
 std::optional<FloorTimes> floor_times(const FlightCurve& curve, const FlightDynamics& pull,
                                       double floor_px) {
   const double top = top_s(curve, pull);
@@ -144,19 +145,19 @@ std::optional<FloorTimes> floor_times(const FlightCurve& curve, const FlightDyna
   return FloorTimes{top - half_s, top + half_s};
 }
 
-/// Where the grain's centre is at an impact.
+/// Height of the grain's centre at an impact.
 double floor_px(const DropCandidate& grain) {
   const std::size_t k = grain.impacts.front();
   return height_at(grain.fit->curves()[k], grain.fit->impact_time_s(k), grain.fit->pull());
 }
 
-/// Two pieces of one flight, between which the grain was not seen.
+/// Two pieces of one flight, with the grain unseen between them.
 bool is_same_flight(const FloorTimes& one, const FloorTimes& next) {
   constexpr double kPart = .25;
   return std::abs(next.landing_s - one.landing_s) < kPart * (one.landing_s - one.start_s);
 }
 
-/// Between flights k and k + 1, with their times where they were not read.
+/// Number of impacts between flights k and k + 1; adds those that were not read, with their times.
 int impacts_after(const DropCandidate& grain, std::size_t k, double floor, int number,
                   std::vector<UnreadBounce>& unread) {
   const FlightFit& fit = *grain.fit;
@@ -180,26 +181,26 @@ int impacts_after(const DropCandidate& grain, std::size_t k, double floor, int n
   return count;
 }
 
-/// What may be the same thing: of like size and colour.
+/// Whether two blobs may be the same thing: of similar size and colour.
 bool is_alike(const Blob& one, const Blob& other) {
   constexpr double kArea = 2, kColours = 90;
   return one.area_px < kArea * other.area_px && other.area_px < kArea * one.area_px &&
          cv::norm(one.colour - other.colour) < kColours;
 }
 
-/// Along gravity, downwards.
+/// Coordinate along gravity, downwards.
 double along_px(const DropCandidate& grain, const Blob& blob) {
   return blob.centre.x * std::sin(grain.used_lean_rad) +
          blob.centre.y * std::cos(grain.used_lean_rad);
 }
 
-/// Sightings of what may be the grain before a time, in their order.
+/// Sightings of what may be the grain before a given time, in order.
 std::vector<Sighting> seen_before(const DropCandidate& grain, const FilmGrains& film,
                                   double time_s) {
   const Blob& looks = (*grain.path)[grain.path->size() / 2].blob;
   std::vector<Sighting> seen;
   for (const GrainPath& path : film.paths) {
-    // What is seen at the same time as the grain is something else.
+    // Anything seen at the same time as the grain is something else.
     const bool is_own = &path == grain.path;
     if (!is_own && path.back().time_s >= grain.path->front().time_s) continue;
     for (const Sighting& one : path) {
@@ -211,7 +212,7 @@ std::vector<Sighting> seen_before(const DropCandidate& grain, const FilmGrains& 
   return seen;
 }
 
-/// Whether it lay in a hand just before: it hardly moves between the last sightings.
+/// Whether the grain was held just before: it hardly moves between the last sightings.
 bool is_held(const std::vector<Sighting>& seen, double until_s, double interval_s) {
   constexpr double kFrames = 4, kHeld_px = 1;
   const auto count = seen.size();
@@ -231,7 +232,7 @@ bool follows_gap(const FilmGrains& film, double time_s) {
   return false;
 }
 
-/// Whether the first flight that was fitted cannot be the first that the grain made.
+/// Whether the first fitted flight cannot be the first the grain made.
 bool is_later_flight(const DropCandidate& grain, const FilmGrains& film, double floor) {
   const FlightFit& fit = *grain.fit;
   const FlightCurve& first = fit.curves().front();
@@ -243,7 +244,7 @@ bool is_later_flight(const DropCandidate& grain, const FilmGrains& film, double 
   const double risen_px = height_at(first, first.begins_s, fit.pull()) - top_px;
   if (top > first.begins_s + kFrames * interval_s &&
       risen_px > std::max(kMinRise_px, kRise * fall_px)) {
-    return true;  // it rises: from an impact, or thrown
+    return true;  // it rises: after an impact, or thrown
   }
   const std::vector<Sighting> before = seen_before(grain, film, first.begins_s);
   if (is_held(before, first.begins_s, interval_s)) return false;
@@ -286,7 +287,7 @@ BounceNumbers number_bounces(const DropCandidate& grain, const FilmGrains& film)
     if (grain.fit->has_impact_after(k)) numbers.of_impacts.push_back(number);
     number += impacts_after(grain, k, floor, number, numbers.unread);
   }
-  // After the last that was read, bounces get too low to be.
+  // After the last bounce that was read, bounces get too low.
   const int last = numbers.of_impacts.back();
   std::erase_if(numbers.unread, [&](const UnreadBounce& one) { return one.number > last; });
   return numbers;

@@ -9,35 +9,35 @@
 
 namespace repose::vision {
 
-/// A path that may be that of a dropped grain, with its flights.
+/// A path that may belong to a dropped grain, with its flights.
 struct DropCandidate {
   const GrainPath* path = nullptr;
-  std::vector<SeenAt> seen;  ///< along gravity and across it
-  Estimate roll_rad = {};    ///< of gravity against the frame's upright
-  double used_lean_rad = 0;  ///< 0 where gravity is not known to lean
+  std::vector<SeenAt> seen;  ///< coordinates along gravity and across it
+  Estimate roll_rad = {};    ///< of gravity, from the frame's vertical
+  double used_lean_rad = 0;  ///< 0 unless gravity is clearly tilted
   Flights flights = {};
   std::optional<FlightFit> fit = {};
-  std::vector<std::size_t> impacts = {};  ///< numbers of the flights that end with one
+  std::vector<std::size_t> impacts = {};  ///< indices of the flights that end with an impact
 
   int flown() const { return fit ? fit->sightings() : 0; }
 };
 
-/// Finds and fits the flights of a path.
+/// Identifies and fits the flights of a path.
 DropCandidate drop_candidate(const GrainPath& path, const FilmGrains& film);
 
-/// A place that is given along gravity and across it, in the picture again.
+/// Converts coordinates along and across gravity back to the picture.
 cv::Point2d upright(double x_px, double y_px, double roll_rad);
 
-/// Which bounces of the grain those are that were read, counted from its release, or from the first
-/// flight that is seen where the film begins with it.
+/// The numbers of the bounces that were read, counted from the grain's release, or from the first
+/// visible flight if the video begins with it.
 struct BounceNumbers {
-  std::vector<int> of_impacts;       ///< of each of the candidate's, from 1 on
-  std::vector<UnreadBounce> unread;  ///< before the last of these
+  std::vector<int> of_impacts;       ///< of each of the candidate's impacts, from 1
+  std::vector<UnreadBounce> unread;  ///< before the last of those that were read
 };
 
-/// Bounces between two flights, of which no impact was read, are counted by the time between them:
-/// from the speed v of the one landing to the speed w of the other's start, n impacts that restore
-/// e = (w/v)^(1/n) each leave flights of 2 v e^i / g, i = 1 to n - 1 (free flight, Newton's law of
+/// Bounces between two flights of which no impact was read are counted by the time between them:
+/// from the landing speed v to the next flight's initial speed w, n impacts, each with restitution
+/// e = (w/v)^(1/n), leave flights of 2 v e^i / g, i = 1 to n - 1 (free flight, Newton's law of
 /// impact). Checked by BounceNumbers.* in tests/vision/bounce_numbers_test.cpp.
 int impacts_between(double landing_px_s, double start_px_s, double gap_s, double gravity_px_s2);
 

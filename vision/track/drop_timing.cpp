@@ -10,7 +10,7 @@
 namespace repose::vision {
 namespace {
 
-/// Those that flew most, the best first.
+/// Candidates with the most flight time, best first.
 std::vector<DropCandidate> candidates_in(const FilmGrains& film) {
   constexpr std::size_t kMax = 24;
   std::vector<DropCandidate> candidates;
@@ -19,7 +19,7 @@ std::vector<DropCandidate> candidates_in(const FilmGrains& film) {
     candidates.push_back(drop_candidate(path, film));
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    // What is seen more clearly comes before its shadow.
+    // A clearly visible object comes before its shadow.
     const auto rank = [](const DropCandidate& one) {
       return one.impacts.empty() ? 0 : one.flown() * one.path->back().blob.contrast;
     };
@@ -28,8 +28,8 @@ std::vector<DropCandidate> candidates_in(const FilmGrains& film) {
   return candidates;
 }
 
-/// Whether flights are parabolas much rather in the first one: more of the path is in flight, or as
-/// much scatters less.
+/// Whether flights are parabolas much more clearly in the first one: more of the path is in flight,
+/// or as much with less scatter.
 bool fits_better(const TimedDrop& one, const TimedDrop& other) {
   constexpr double kMore = 1.1, kAsMuch = .95, kLess = .7;
   if (one.candidates.empty() || !one.candidates.front().fit) return false;
@@ -41,7 +41,7 @@ bool fits_better(const TimedDrop& one, const TimedDrop& other) {
          (a.flown() >= kAsMuch * b.flown() && a.fit->noise_px() < kLess * b.fit->noise_px());
 }
 
-/// Whether flights are as good parabolas in the first one.
+/// Whether flights are equally good parabolas in the first one.
 bool fits_as_well(const TimedDrop& mended, const TimedDrop& known) {
   constexpr double kAsMuch = .98, kNoMore = 1.02;
   const auto& fit = known.candidates.front().fit;
@@ -59,9 +59,9 @@ TimedDrop with_times(const FilmGrains& film, const std::vector<double>& times_s)
   return drop;
 }
 
-/// A way from one sighting to the next, which is in the next frame that is none that repeats.
+/// Displacement from one sighting to the next, which is in the next frame that is not a repeat.
 struct Step {
-  int frame = 0;  ///< to which it leads
+  int frame = 0;  ///< the frame it leads to
   cv::Point2d way;
   bool is_single = false;
 };
@@ -79,8 +79,8 @@ std::vector<Step> steps_of(const FilmGrains& film, const GrainPath& path) {
   return steps;
 }
 
-/// How many frames' way step k is, by the two steps before it and the two after it, which in flight
-/// change evenly: 1, unless it surely is another whole number.
+/// Number of frames that step k spans, judged by the two steps before it and the two after it,
+/// which change evenly in flight: 1, unless it clearly is another integer.
 int frames_in(const std::vector<Step>& steps, std::size_t k) {
   constexpr double kMinWay_px = 4, kEven = .15, kMaxChange = .5, kOff = .12, kNoise_px = .6;
   constexpr double kMax = 6;
@@ -96,22 +96,23 @@ int frames_in(const std::vector<Step>& steps, std::size_t k) {
   if (cv::norm(speeds_up) > kMaxChange * length) return 1;
   const double times = std::round(steps[k].way.dot(mean) / (length * length));
   if (times < 2 || times > kMax) return 1;
-  // Over as many frames more the speed changes more.
+  // Over more frames the speed changes more.
   const cv::Point2d change = steps[k + 1].way - steps[k - 1].way - (times + 1) * speeds_up;
   if (cv::norm(change) > (times + 1) * most_px) return 1;
   const double off_px = cv::norm(steps[k].way - times * mean);
   return off_px < kOff * times * length + kNoise_px ? static_cast<int>(times) : 1;
 }
 
-/// Whether three steps in a row change evenly, as in flight.
+/// Whether three consecutive steps change evenly, as in flight.
 bool is_smooth(const Step& a, const Step& b, const Step& c) {
   constexpr double kOff = .15, kNoise_px = .7;
   return a.is_single && b.is_single && c.is_single &&
          cv::norm(c.way - 2 * b.way + a.way) < kOff * cv::norm(b.way) + kNoise_px;
 }
 
-/// How many times as far the grain suddenly goes in a frame as it would by going on, or less far if
-/// below 1, on a way that goes on straight: nothing but the film can do that. 1: it does not.
+/// By how many times the grain's displacement per frame suddenly grows (below 1: shrinks), compared
+/// with its continued motion, on a path that stays straight: only the video itself can cause that.
+/// 1: it does not.
 double sudden_change(const std::vector<Step>& steps, std::size_t k) {
   constexpr double kStraight = .97, kMinWay_px = 1.5;
   if (!is_smooth(steps[k - 2], steps[k - 1], steps[k]) ||
@@ -127,7 +128,8 @@ double sudden_change(const std::vector<Step>& steps, std::size_t k) {
   return is / would;
 }
 
-/// By the step at which the film begins to play faster or slower: how many times.
+/// By how many times the video's speed changes, at the step where it begins to play faster or
+/// slower.
 std::optional<double> sudden_change_in(const FilmGrains& film, const GrainPath& path) {
   constexpr double kLeast = 1.8;
   const std::vector<Step> steps = steps_of(film, path);
@@ -150,7 +152,7 @@ std::vector<SeenAt> not_flown(const DropCandidate& grain) {
   return rest;
 }
 
-/// Whether a flight rises and falls, long enough to be sure of its bend.
+/// Whether a flight rises and falls, and is long enough for a reliable curvature.
 bool is_arc(const std::vector<SeenAt>& path, const FlightSpan& span) {
   constexpr std::size_t kFewest = 7;
   constexpr double kMinSag_px = 8, kSide = .2, kRms = .04;
@@ -165,8 +167,8 @@ bool is_arc(const std::vector<SeenAt>& path, const FlightSpan& span) {
          path[span.to - 1].y_px - top_px > kSide * sag_px;
 }
 
-/// Flights of another gravity beside those that were found: the film does not play all of them
-/// equally fast. A hand may move a grain along a parabola once, but hardly up and down again.
+/// Flights with a gravity different from that of the flights found: parts of the video play at
+/// different speeds. A hand may move a grain along a parabola once, but hardly up and down again.
 std::optional<double> speed_change_of(const DropCandidate& grain) {
   constexpr double kSame = 1.6, kNoise_px = .5;
   constexpr std::size_t kFewest = 12;

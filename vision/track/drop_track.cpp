@@ -21,7 +21,7 @@ namespace repose::vision {
 
 namespace {
 
-/// Two things that fly at the same time, well apart and about as clearly seen.
+/// Whether two things fly at the same time, about equally clearly visible.
 bool is_another_grain(const DropCandidate& grain, const DropCandidate& other) {
   if (other.impacts.empty() || other.flown() < grain.flown() / 2) return false;
   constexpr double kShadow = .5, kAlike = 4;
@@ -70,7 +70,7 @@ void warn(DropTrack& track, const char* code, std::string message) {
   track.warnings.push_back({.code = code, .message = std::move(message)});
 }
 
-/// Films whose container says another frame rate than the camera had: slow motion that plays at 30.
+/// Videos whose container states a frame rate other than the camera's: slow motion played at 30.
 void check_rate(DropTrack& track) {
   if (!track.gravity_m_s2) return;
   const double ratio = track.gravity_m_s2->value / kStandardGravity_m_s2;
@@ -86,8 +86,8 @@ void check_rate(DropTrack& track) {
                    track.film.frames_per_s / std::sqrt(ratio)));
 }
 
-/// Without a scale, by what a bench and a grain can be: drops of 2 mm to 10 m, grains of 0.1 to 300
-/// mm. A film that plays n times slower than it was taken makes both n^2 times as large.
+/// Without a scale, checks for plausible sizes: drops of 2 mm to 10 m, grains of 0.1 to 300 mm. A
+/// video played n times slower than it was taken makes both n^2 times as large.
 void check_size(DropTrack& track) {
   if (track.has_scale) return;
   constexpr double kLowest_mm = 2, kHighest_mm = 1e4, kSmallest_mm = .1, kLargest_mm = 300;
@@ -125,7 +125,7 @@ void check_times(const TimedDrop& drop, DropTrack& track) {
   }
 }
 
-/// How many of the sightings in flight were taken before and after a time, whichever are fewer.
+/// The number of sightings in flight before or after a time, whichever is smaller.
 int flown_beside(double time_s, const DropCandidate& grain) {
   int before = 0, after = 0;
   for (const FlightSpan& span : grain.flights.spans) {
@@ -136,9 +136,8 @@ int flown_beside(double time_s, const DropCandidate& grain) {
   return std::min(before, after);
 }
 
-/// Heights by gravity rest on the time stamps. Where those of a part of the film are longer,
-/// flights on both sides show by their common gravity that the camera took them so; else nothing
-/// does.
+/// Heights by gravity depend on the time stamps. If the intervals are longer in a part of the
+/// video, flights on both sides with the same gravity confirm them; nothing else does.
 void check_even_rate(const TimedDrop& drop, DropTrack& track) {
   constexpr int kEnough = 6;
   const DropCandidate& grain = drop.candidates.front();
@@ -210,8 +209,7 @@ void check_bounces(DropTrack& track) {
   }
 }
 
-/// Gives a track its status, with the warnings or the reason of a refusal. A refused one has no
-/// bounces.
+/// Sets the status, with the warnings or the reason for a refusal. A refused track has no bounces.
 void judge_drop(const TimedDrop& drop, const FilmScale& scale, DropTrack& track) {
   track.reason = fault_of(drop.film);
   if (track.reason.empty()) track.reason = of_the_grain(drop);
@@ -244,7 +242,7 @@ void judge_drop(const TimedDrop& drop, const FilmScale& scale, DropTrack& track)
 
 constexpr double kGravity_mm_s2 = 9806.65;
 
-/// The straight line sideways that a flight follows: place and speed at a time.
+/// The straight horizontal motion of a flight: position and speed at a given time.
 std::array<double, 2> sideways(const DropCandidate& grain, std::size_t k, double time_s) {
   const auto [from, to] = grain.flights.spans[k];
   double mean_t = 0, mean_x = 0, tt = 0, tx = 0;
@@ -286,7 +284,7 @@ FlightPath path_of(const DropCandidate& grain, std::size_t k) {
   return path;
 }
 
-/// Height of a fall to a speed, mm: of the scale, or of the millimetres that gravity makes.
+/// Fall height to reach a speed, in mm of the scale, or in millimetres implied by gravity.
 Estimate height_mm(const DropCandidate& grain, std::size_t k, bool is_before,
                    const std::optional<Estimate>& mm) {
   Estimate height = grain.fit->estimate(
@@ -320,7 +318,7 @@ Bounce bounce_after(const DropCandidate& grain, std::size_t k, const std::option
   return bounce;
 }
 
-/// Of the grain's plane, in the middle of its path, along gravity.
+/// Scale in the grain's plane, at the middle of its path, along gravity.
 std::optional<Estimate> mm_per_px_of(const DropCandidate& grain, const FilmScale& scale) {
   if (!scale.exists()) return std::nullopt;
   cv::Point2d middle(0, 0);

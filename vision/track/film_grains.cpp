@@ -20,7 +20,7 @@ constexpr double kNotYet = std::numeric_limits<double>::infinity();
 
 double length(const cv::Point2d& v) { return std::hypot(v.x, v.y); }
 
-/// As wide as a disc of its area.
+/// Diameter of a disc of its area.
 double width_px(const Blob& blob) { return 2 * std::sqrt(blob.area_px / CV_PI); }
 
 }  // namespace
@@ -38,7 +38,7 @@ double PathFinder::cost(const GrainPath& path, double time_s, const Blob& blob) 
     moved = (last.blob.centre - before.blob.centre) * (waited_s / (last.time_s - before.time_s));
   }
   const cv::Point2d gone = blob.centre - last.blob.centre;
-  // Flown on, lying still, or thrown back.
+  // Flown on, at rest, or bounced back.
   const double off = std::min({length(gone - moved), .5 * length(gone) + .25 * length(moved),
                                length(gone - cv::Point2d(moved.x, -.6 * moved.y))});
   const double reach = 2 * width_px(last.blob) + .5 * length(moved) + 8;
@@ -122,7 +122,7 @@ double way_px(const GrainPath& path) {
 
 namespace {
 
-/// The scene's own movement is taken out of the grain's where it stands out.
+/// Removes the scene's own movement from the grain's, if it is significant.
 void take_out_shifts(FilmGrains& grains) {
   constexpr double kStandsOut_px = .4;
   if (farthest_shift_px(grains) < kStandsOut_px) return;
@@ -135,7 +135,7 @@ void take_out_shifts(FilmGrains& grains) {
   }
 }
 
-/// Between frames that are no repeats, in the median.
+/// Median interval between frames that are not repeats.
 void read_interval(FilmGrains& grains) {
   std::vector<double> steps;
   std::optional<double> last_s;
@@ -157,9 +157,10 @@ std::vector<double> at_steps(const std::vector<double>& steps, double step_s) {
   return times_s;
 }
 
-/// Which frames are repeats, and when the others may have been taken if not at their time stamps.
+/// Finds repeated frames, and when the others may have been taken if not at their time stamps.
 void find_times(const RepeatFinder& finder, FilmGrains& grains) {
-  // Of a step, that stamps are off: rounded ones less, those of an unsteady camera more than which.
+  // Deviation of the stamps, as a fraction of a step: rounded stamps deviate less than the first,
+  // those of an unsteady camera more than the second.
   constexpr double kEven = .02, kSteady = .25;
   const auto grid = grid_of(grains.survey.times_s);
   const bool is_steady = grid && grid->off < kSteady;
@@ -230,7 +231,7 @@ FilmGrains retimed(const FilmGrains& film, const std::vector<double>& times_s) {
 
 namespace {
 
-/// What to show, by the numbers of its frames.
+/// Blobs to show, by frame number.
 std::map<int, Blob> shown_blobs(const GrainPath& path) {
   std::map<int, Blob> shown;
   cv::Point2d last;
@@ -244,7 +245,7 @@ std::map<int, Blob> shown_blobs(const GrainPath& path) {
   return shown;
 }
 
-/// The part of a frame that the grain covers.
+/// Draws the part of a frame that the grain covers.
 void show(const cv::Mat& frame, const cv::Mat& scene, const Blob& blob, cv::Mat& strobe) {
   for (int row = blob.box.y; row < blob.box.y + blob.box.height; ++row) {
     for (int k = blob.box.x; k < blob.box.x + blob.box.width; ++k) {

@@ -12,7 +12,7 @@
 
 namespace repose::vision {
 
-/// Where one thing was seen, in the order of time.
+/// Where one thing was seen, in order of time.
 struct Sighting {
   int frame = 0;
   double time_s = 0;
@@ -20,8 +20,8 @@ struct Sighting {
 };
 using GrainPath = std::vector<Sighting>;
 
-/// Joins blobs of successive frames that are the same thing: near where it was expected, had it
-/// flown on, come to rest or bounced, and of like size and colour.
+/// Joins blobs of successive frames that are the same thing: near where it was expected if it flew
+/// on, came to rest or bounced, and of similar size and colour.
 class PathFinder {
  public:
   /// @param interval_s  between frames
@@ -29,7 +29,7 @@ class PathFinder {
 
   void add(int frame, double time_s, const std::vector<Blob>& blobs);
 
-  /// Those that moved, the longest way first.
+  /// Those that moved, longest distance first.
   std::vector<GrainPath> paths() &&;
 
  private:
@@ -37,7 +37,7 @@ class PathFinder {
   double cost(const GrainPath& path, double time_s, const Blob& blob) const;
   void forget_lost(double time_s);
 
-  /// Frames that are missing: while they were taken nothing could be seen, and nothing is lost.
+  /// Missing frames: nothing could be seen meanwhile, so that no path is lost because of them.
   struct Gap {
     double begins_s = 0;
     double lasts_s = 0;
@@ -52,32 +52,33 @@ class PathFinder {
   std::vector<GrainPath> closed_;
 };
 
-/// The length of the way along a path, without the jitter of a thing at rest [px].
+/// Length of a path, without the jitter of a thing at rest [px].
 double way_px(const GrainPath& path);
 
-/// All that moved in a film.
+/// Everything that moved in a video.
 struct FilmGrains {
   FilmSurvey survey;
   cv::Mat scene = {};
-  std::vector<GrainPath> paths = {};     ///< the longest way first, less the scene's shifts
+  std::vector<GrainPath> paths = {};     ///< longest distance first, corrected for the scene's
+                                         ///< shifts
   std::vector<cv::Point2d> shifts = {};  ///< of the scene in each frame [px]
-  RepeatedFrames repeated = {};          ///< these are in no path
-  /// When frames may have been taken if not at their time stamps, a list of all frames each: in a
-  /// pattern of repeats, or evenly where the stamps are not.
+  RepeatedFrames repeated = {};          ///< these frames are in no path
+  /// When frames may have been taken if not at their time stamps, each entry a list for all frames:
+  /// in a pattern of repeats, or at even intervals if the stamps are uneven.
   std::vector<std::vector<double>> other_times_s = {};
 };
 
-/// The same film with each frame taken at another time.
+/// The same video with different frame times.
 FilmGrains retimed(const FilmGrains& film, const std::vector<double>& times_s);
 
 double farthest_shift_px(const FilmGrains& film);
 
-/// Looks through the film twice: for the scene, and for what moves before it. Scenes that change as
-/// a whole, and films of a few frames, are looked through once: they have no paths.
+/// Reads the video twice: for the scene, and for what moves in front of it. Videos whose scene
+/// changes as a whole, or with few frames, are read once: they have no paths.
 /// @throws base::InputError  see FilmReader.
 FilmGrains grains_in_film(const FilmFile& file, const FilmProgress& progress);
 
-/// The scene with the grain in it at successive places of its path, about its width apart or more.
+/// The scene with the grain at successive places of its path, about its width apart or more.
 Picture strobe_picture(const FilmFile& file, const cv::Mat& scene, const GrainPath& path);
 
 }  // namespace repose::vision

@@ -3,7 +3,7 @@
 namespace repose::vision {
 namespace {
 
-/// What is read of the track of the experiment that was filmed.
+/// Applies `read` to the track of the experiment that was filmed.
 template <typename Film, typename Read>
 decltype(auto) of_track(Film& film, const Read& read) {
   switch (film.filmed) {

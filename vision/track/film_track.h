@@ -10,7 +10,7 @@
 #include "vision/track/tilt_track.h"
 #include "vision/track/track.h"
 
-/// A film of any of the experiments that films are read of.
+/// A video of any of the experiments that can be filmed.
 
 namespace repose::vision {
 
@@ -18,7 +18,7 @@ enum class Filmed { drop, roll, tilt };
 
 struct FilmTrack {
   Filmed filmed = Filmed::drop;
-  DropTrack drop = {};  ///< of what was filmed; the others are empty
+  DropTrack drop = {};  ///< of what was filmed; the others stay empty
   RollTrack roll = {};
   TiltTrack tilt = {};
 };
@@ -26,14 +26,14 @@ struct FilmTrack {
 /// @throws base::InputError  as track_drop(), track_roll() and track_tilt().
 FilmTrack track_film(Filmed filmed, const FilmFile& film, const TrackOptions& options);
 
-/// What every track has.
+/// Common to all tracks.
 MeasureStatus status_of(const FilmTrack& film);
 const std::string& reason_of(const FilmTrack& film);
 const std::vector<Warning>& warnings_of(const FilmTrack& film);
 const FilmFacts& facts_of(const FilmTrack& film);
 bool has_reading(const FilmTrack& film);
 
-/// Drops the strobe picture, which is large.
+/// Deletes the strobe picture, which is large.
 void drop_strobe(FilmTrack& film);
 
 }  // namespace repose::vision

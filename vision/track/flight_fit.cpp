@@ -40,14 +40,15 @@ Parabola parabola_through(const std::vector<SeenAt>& path, std::size_t from, std
 namespace {
 
 constexpr std::size_t kFewestInFlight = 4;
-/// Costs in squared deviations: of a loose sighting, and of a flight more.
+/// Costs in squared deviations: of a loose sighting, and of an additional flight.
 constexpr double kLoose = 16;
 constexpr double kFlight = 20;
-/// How far the middle of a flight's parabola must lie from its chord.
+/// Minimum distance between the middle of a flight's parabola and its chord.
 constexpr double kMinSag_px = 2;
 constexpr double kMinSag_sigmas = 6;
 
-/// The bend of those stretches that parabolas fit, the highest ones before all.
+/// Gravity from the curvature of the stretches that parabolas fit, weighted towards the highest
+/// ones.
 std::optional<double> gravity_of(const std::vector<SeenAt>& path, double noise_px) {
   std::vector<std::pair<double, double>> found;  // acceleration and weight
   double total = 0;
@@ -73,10 +74,11 @@ std::optional<double> gravity_of(const std::vector<SeenAt>& path, double noise_p
   return std::nullopt;
 }
 
-/// A parabola of nearly the gravity through sightings that are added one by one, relative to it.
+/// Fit of a parabola with nearly the given gravity through sightings added one by one, relative to
+/// it.
 class NearlyFalling {
  public:
-  /// @param unit_s  makes the sums alike in size
+  /// @param unit_s  gives the sums similar magnitudes
   NearlyFalling(double gravity, double noise_px, double unit_s)
       : unit_s_(unit_s), gravity_(gravity) {
     const double tolerated = kTolerated * gravity * unit_s * unit_s;
@@ -91,7 +93,7 @@ class NearlyFalling {
     right_ += z * terms;
     squares_ += z * z;
   }
-  /// Squared deviations, that of the gravity too; infinite where it is another one.
+  /// Squared deviations, including that of gravity; infinite if gravity differs too much.
   double squares() const {
     const cv::Vec3d solution = normal_.solve(right_, cv::DECOMP_CHOLESKY);
     const double most = 3 * kTolerated * gravity_ * unit_s_ * unit_s_;
@@ -100,7 +102,7 @@ class NearlyFalling {
   }
 
  private:
-  /// Air, lens and readout change the bend of a flight as a whole.
+  /// Air, lens and readout change the curvature of a flight as a whole.
   static constexpr double kTolerated = .12;
 
   double unit_s_;
@@ -142,7 +144,7 @@ std::vector<FlightSpan> cheapest_cut(const std::vector<SeenAt>& path, double gra
   return spans;
 }
 
-/// Whether a flight is no short stretch of a grain that lies still, to which any line is near.
+/// Whether a flight is curved, and not a short stretch of a grain at rest, which any line fits.
 bool is_bent(const std::vector<SeenAt>& path, const FlightSpan& span, double gravity,
              double noise_px) {
   const double length_s = path[span.to - 1].time_s - path[span.from].time_s;
@@ -173,24 +175,23 @@ namespace {
 
 constexpr int kFitRounds = 4;
 constexpr double kStraySigmas = 4;
-/// Between two flights with nothing but an impact between them, in frames.
+/// Maximum gap between two flights with only an impact between them, in frames.
 constexpr double kLongestGap = 4.5;
 constexpr double kMinNoise_px = .03;
-/// Centres are not better than this, however little they scatter: shadows and the scene behind the
-/// grain move them alike in many frames.
+/// Centres are no better than this, however little they scatter: shadows and the scene behind the
+/// grain shift them alike in many frames.
 constexpr double kMinError_px = .1;
-/// Frames so near in time err alike, as films of 240 frames per second show.
+/// Errors of frames this close in time are correlated, as videos at 240 frames per second show.
 constexpr double kAlike_s = 1. / 60;
-/// Air decelerates a sphere of the radius r at the speed v by 3 Cd p v^2 / (8 r q), with the
-/// densities p and q of air and grain: Newton's law of drag over the mass. This is 3 Cd p / (8 q),
-/// which has no unit, as a standard deviation: 2e-4 for Cd = .55, as of spheres at Reynolds numbers
-/// of 500 to 2000 (R. Clift, J. R. Grace, M. E. Weber: Bubbles, Drops, and Particles, 1978, chapter
-/// 5), and q = 1200 kg/m3; 8e-4 for grains of 400 kg/m3 that are no spheres. By the radius and not
-/// by a terminal speed, since it holds in pixels and in films that play slower than they were
-/// taken.
+/// Air decelerates a sphere of radius r at speed v by 3 Cd p v^2 / (8 r q), with the densities p
+/// and q of air and grain: Newton's drag law over the mass. This is 3 Cd p / (8 q), dimensionless,
+/// as a standard deviation: 2e-4 for Cd = .55, as for spheres at Reynolds numbers of 500 to 2000
+/// (R. Clift, J. R. Grace, M. E. Weber: Bubbles, Drops, and Particles, 1978, chapter 5), and q =
+/// 1200 kg/m3; 8e-4 for non-spherical grains of 400 kg/m3. Based on the radius, not a terminal
+/// speed, since it also holds in pixels and in slow-motion videos.
 constexpr double kAir = 4e-4;
 
-/// Unknowns are of very different size: all are made alike first.
+/// Unknowns differ greatly in magnitude: all are scaled first.
 cv::Mat inverse_of(const cv::Mat& normal) {
   cv::Mat size, sizes, inverse;
   cv::sqrt(normal.diag(), size);
@@ -254,7 +255,7 @@ double FlightFit::fitted_y(const Observation& one) const {
   return height_at(curves_[one.flight], one.seen.time_s + readout_ * one.seen.row_px, pull_);
 }
 
-/// One step of Gauss and Newton; only readout and drag make it nonlinear, and little.
+/// One Gauss-Newton step; only readout and drag make it nonlinear, and only slightly.
 void FlightFit::solve() {
   const auto flights = static_cast<int>(curves_.size());
   const int unknowns = 2 * flights + 3;
@@ -266,7 +267,7 @@ void FlightFit::solve() {
     const FlightCurve& curve = curves_[one.flight];
     const double time_s = one.seen.time_s + readout_ * one.seen.row_px;
     const double t = time_s - curve.t0_s;
-    // The first round does not know the speeds yet.
+    // The speeds are still unknown in the first round.
     const double s = curve.v_px_s == 0 ? 0 : time_s - top_s(curve, pull_);
     const int at = 2 * static_cast<int>(one.flight);
     const std::array<std::pair<int, double>, 5> terms = {
@@ -321,8 +322,8 @@ void FlightFit::read_residuals() {
   correlation_ = squares > 0 ? std::clamp(products / squares, 0.0, .8) : 0;
 }
 
-/// Where no other flight follows at once, the first and last sighting may be half held, or half
-/// past an impact that is not seen.
+/// If no other flight follows immediately, the first and last sightings may be partly held, or
+/// partly past an impact that was not seen.
 void FlightFit::drop_loose_ends() {
   constexpr std::size_t kEnough = 6;
   const auto is_loose = [&](std::size_t before, std::size_t after) {
@@ -341,7 +342,7 @@ void FlightFit::drop_loose_ends() {
   }
 }
 
-/// Frames whose exposure may hold an impact show the grain in two flights at once.
+/// Frames whose exposure may include an impact show the grain in two flights at once.
 void FlightFit::drop_blurred() {
   for (std::size_t k = 0; k + 1 < curves_.size(); ++k) {
     if (!has_impact_after(k)) continue;
@@ -382,7 +383,7 @@ double FlightFit::impact_time_s(std::size_t k) const {
   return meeting_time_s(curves_[k], curves_[k + 1], pull_);
 }
 
-/// What the noise of one sighting counts as, for 95 %: residuals that follow each other tell less.
+/// Factor from the noise of one sighting to 95 %: correlated residuals carry less information.
 double FlightFit::factor() const {
   const auto flights = static_cast<int>(curves_.size());
   const double inflation =

@@ -15,7 +15,7 @@ struct SeenAt {
   double time_s = 0;
   double x_px = 0;
   double y_px = 0;    ///< downwards
-  double row_px = 0;  ///< of the frame, from its middle: rows may be exposed one after the other
+  double row_px = 0;  ///< in the frame, from its middle: rows may be exposed one after the other
 };
 
 /// Sightings [from, to) in one free flight.
@@ -29,12 +29,12 @@ struct Flights {
   double gravity_px_s2 = 0;
 };
 
-/// Parts of a path that are free flights under one and the same gravity, which the path itself
-/// tells.
+/// Parts of a path that are free flights under a common gravity, which is inferred from the path
+/// itself.
 ///
-/// Of all ways to cut the path into parabolas of nearly one bend and loose sightings (held, at
-/// rest, blurred by an impact), the one is taken that costs least. A flight whose bend does not
-/// stand out from the noise is none.
+/// Of all ways to cut the path into parabolas of nearly the same curvature and loose sightings
+/// (held, at rest, blurred by an impact), the one with the lowest cost is taken. A flight must be
+/// curved clearly beyond the noise.
 Flights find_flights(const std::vector<SeenAt>& path, double noise_px);
 
 struct Parabola {
@@ -43,17 +43,17 @@ struct Parabola {
   double error = 0;  ///< standard error of the acceleration
 };
 
-/// Least squares through `count` sightings from `from` on: of their heights over time.
+/// Least squares through `count` sightings starting at `from`: their heights against time.
 Parabola parabola_through(const std::vector<SeenAt>& path, std::size_t from, std::size_t count);
 
 /// What accelerates a grain in flight [px].
 struct FlightDynamics {
   double gravity = 0;  ///< per s2
-  double drag = 0;  ///< deceleration by air at the speed v, as a part of (v / gravity)^2: px / s4
+  double drag = 0;     ///< deceleration by air at the speed v, over (v / gravity)^2: px / s4
 };
 
-/// y = y0 + v (t - t0) + g (t - t0)^2 / 2 - drag s^3 |s| / 12, y downwards [px], s the time from
-/// the highest point on: the last term is the air's, to first order.
+/// y = y0 + v (t - t0) + g (t - t0)^2 / 2 - drag s^3 |s| / 12, y downwards [px], s the time since
+/// the highest point: the last term is air drag, to first order.
 struct FlightCurve {
   double t0_s = 0;
   double y0_px = 0;
@@ -64,12 +64,12 @@ struct FlightCurve {
 };
 
 /// Flights of one grain, fitted together by least squares: each with its own place and speed, all
-/// with one gravity, one drag of the air, and one readout time a row (cameras that expose rows one
-/// after the other see what falls too fast, and what rises too slow). What the last two can be at
-/// most is known beforehand, and enters the fit: of the air by the grain's size.
+/// with one gravity, one air drag, and one readout time per row (a rolling shutter makes falling
+/// objects look too fast and rising ones too slow). The plausible size of the last two is a prior
+/// of the fit: for the air by the grain's size.
 class FlightFit {
  public:
-  /// @param frame_interval_s  what readout and exposure cannot be longer than
+  /// @param frame_interval_s  upper limit of readout and exposure
   /// @param radius_px  of the grain
   FlightFit(const std::vector<SeenAt>& path, const Flights& flights, double frame_interval_s,
             double frame_height_px, double radius_px);
@@ -85,7 +85,7 @@ class FlightFit {
   bool has_impact_after(std::size_t k) const;
   double impact_time_s(std::size_t k) const;
 
-  /// Anything that follows from two flights and gravity, with its interval.
+  /// A function of two flights and gravity, with its interval.
   using Reading = std::function<double(const FlightCurve& before, const FlightCurve& after,
                                        const FlightDynamics& pull)>;
   Estimate estimate(std::size_t before, std::size_t after, const Reading& reading) const;

@@ -18,35 +18,34 @@ namespace repose::vision {
 
 namespace {
 
-/// Where something is found that was seen before.
+/// Where something seen before is found again.
 struct TemplateMatch {
   cv::Point2d moved;      ///< [px]
   double turned_rad = 0;  ///< clockwise
-  double likeness = 0;    ///< 1: it looks the same; 0: anything else would do as well
+  double likeness = 0;    ///< 1: it looks the same; 0: no better than anything else
 };
 
-/// A piece of a picture that is found again in others to a fraction of a pixel, by least squares of
-/// its colours, each less its mean. Source: S. Baker, I. Matthews, Lucas-Kanade 20 years on, Int.
-/// J. Comput. Vision 56 (2004) 221-255, section 3.2 (the inverse compositional algorithm), for a
-/// shift and a turn about the piece's centre. Holds for shifts of a pixel or so from where the
-/// search begins, which goes through whole pixels first. Checked by track_tilt_test.cpp of
-/// tests/vision.
+/// A piece of a picture that is located in others to a fraction of a pixel, by least squares of its
+/// colours, each minus its mean. Source: S. Baker, I. Matthews, Lucas-Kanade 20 years on, Int. J.
+/// Comput. Vision 56 (2004) 221-255, section 3.2 (the inverse compositional algorithm), for a shift
+/// and a rotation about the piece's centre. Valid for shifts of about a pixel from the start, which
+/// is first searched for in whole pixels. Checked by track_tilt_test.cpp of tests/vision.
 class GrainTemplate {
  public:
-  /// @param mask  of the picture's size: what belongs to it
+  /// @param mask  of the picture's size: the pixels that belong to it
   GrainTemplate(const cv::Mat& bgr, const cv::Mat& mask);
 
-  /// Turned as expected.
+  /// With the expected rotation.
   /// @param expected  where to begin
   /// @param reach_px  how far from there it may be along the rows
   TemplateMatch find(const cv::Mat& bgr, const TemplateMatch& expected, int reach_px) const;
-  /// From a place that was found: with its turn.
+  /// Starts from a place already found and fits the rotation, too.
   TemplateMatch find_turned(const cv::Mat& bgr, const TemplateMatch& found) const;
 
  private:
   struct Pixel {
     cv::Point2d place;  ///< from the centre
-    cv::Vec3f colour;   ///< less the mean
+    cv::Vec3f colour;   ///< minus the mean
     cv::Vec3f across, down;
   };
 
@@ -104,7 +103,7 @@ GrainTemplate::GrainTemplate(const cv::Mat& bgr, const cv::Mat& mask) {
   }
 }
 
-/// False where most of it would lie outside.
+/// False if its centre would lie outside.
 bool GrainTemplate::sample(const cv::Mat& bgr, const TemplateMatch& match,
                            std::vector<cv::Vec3f>& seen) const {
   const double c = std::cos(match.turned_rad), s = std::sin(match.turned_rad);
@@ -145,7 +144,7 @@ TemplateMatch GrainTemplate::refined(const cv::Mat& bgr, TemplateMatch match, bo
       normal += terms * terms.t();
     }
   }
-  // Of a round one the turn is unknown, and stays what it was.
+  // A round object's rotation is undetermined, and stays unchanged.
   constexpr double kRidge = 1e-3, kTurnRidge = .02;
   const double spread = normal(0, 0) + normal(1, 1);
   normal(0, 0) += kRidge * spread;
@@ -199,8 +198,8 @@ TemplateMatch GrainTemplate::find_turned(const cv::Mat& bgr, const TemplateMatch
   return refined(bgr, found, true);
 }
 
-/// The backdrop as if nothing stood before it: along each row the median of its surroundings, which
-/// reach farther than grains do.
+/// The backdrop as if nothing stood in front of it: along each row, the median of the surroundings,
+/// which extend farther than grains do.
 cv::Mat backdrop_of(const cv::Mat& strip) {
   constexpr int kStep_px = 8;
   const int reach = std::max(1, strip.cols / 4);
@@ -238,8 +237,8 @@ OnPlate thing_of(const cv::Mat& mask, const cv::Rect& box) {
   return thing;
 }
 
-/// What differs from the backdrop left and right of it and reaches down to the plate, the largest
-/// first.
+/// Objects that differ from the backdrop to their left and right and reach down to the plate,
+/// largest first.
 /// @param strip  see strip_picture()
 std::vector<OnPlate> standing_things(const cv::Mat& strip) {
   constexpr double kMinDifference = 22, kPartOfMost = .35, kLongest = .5;
@@ -271,7 +270,7 @@ std::vector<OnPlate> standing_things(const cv::Mat& strip) {
   return largest;
 }
 
-/// A thing with what it looked like.
+/// A thing with its appearance.
 struct FollowedGrain {
   OnPlateTrack track;
   GrainTemplate looks;
@@ -281,7 +280,7 @@ struct FollowedGrain {
   bool is_over = false;
 };
 
-/// The strip as it is before anything can have slid: the median of frames up to a few degrees.
+/// The strip before anything can have slid: the median of frames up to a few degrees.
 cv::Mat first_strip(const FilmFile& file, const PlateMotion& motion, const PlateStrip& strip) {
   constexpr double kBefore_rad = 4 * kDegree;
   constexpr std::size_t kMax = 25;
@@ -307,7 +306,7 @@ cv::Mat first_strip(const FilmFile& file, const PlateMotion& motion, const Plate
   return strips.empty() ? cv::Mat() : median_of(strips);
 }
 
-/// What is always above the plate and what stands on it, in the first frame's columns.
+/// The area that stays above the plate and everything on it, in the first frame's columns.
 cv::Mat above_plate(const PlateMotion& motion, const PlateStrip& strip, const cv::Size& size) {
   cv::Mat above(size, CV_8U, cv::Scalar(0));
   for (int x = 0; x < size.width; ++x) {
@@ -328,8 +327,8 @@ cv::Mat around(const cv::Mat& mask) {
   return wide;
 }
 
-/// With its turn: from where it lies unturned, and where it turns fast, from where it would be had
-/// it turned on.
+/// Match with rotation: starts from the unrotated place, and for fast rotation also from where it
+/// would be if it continued.
 TemplateMatch turned_match(const FollowedGrain& followed, const cv::Mat& strip,
                            const TemplateMatch& unturned, int reach_px) {
   constexpr double kFast_rad = 2 * kDegree;
@@ -359,7 +358,7 @@ void follow(FollowedGrain& followed, const cv::Mat& strip, std::size_t plate, do
     return;
   }
   const double unlike = 1 - match.likeness;
-  // What turns in place of sliding is found by its turn alone after a while.
+  // An object that rolls instead of sliding can be found only by its rotation after a while.
   const bool is_found = match.likeness >= kMinLikeness;
   const cv::Point2d moved = is_found ? match.moved : turned.moved;
   followed.before = followed.last;

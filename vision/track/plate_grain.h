@@ -17,26 +17,27 @@ struct OnPlate {
   cv::Point2d centre = {};  ///< in the strip
   double width_px = 0;      ///< along the plate
   double height_px = 0;
-  double elongation = 1;      ///< its length over its breadth; 1: round
-  bool touches_edge = false;  ///< not all of it is seen
+  double elongation = 1;      ///< length over breadth; 1: round
+  bool touches_edge = false;  ///< part of it may be out of view
 };
 
-/// Where it is in one frame.
+/// Its position in one frame.
 struct OnPlateSighting {
-  std::size_t plate = 0;  ///< number in PlateMotion::seen
+  std::size_t plate = 0;  ///< index in PlateMotion::seen
   double time_s = 0;
-  double slid_px = 0;     ///< down the plate, from where it lay
+  double slid_px = 0;     ///< down the plate, from its initial place
   double rise_px = 0;     ///< off the plate
-  double turned_rad = 0;  ///< against the plate
-  double turn_gain = 0;   ///< how much better it is found turned: part of what is else unlike
+  double turned_rad = 0;  ///< relative to the plate
+  double turn_gain = 0;   ///< how much better a rotated template matches: fraction of the remaining
+                          ///< mismatch removed
 };
 
-/// A thing on the plate that is followed until it is lost or has gone far enough.
+/// A thing on the plate, followed until it is lost or has moved far enough.
 struct OnPlateTrack {
   OnPlate thing;
   std::vector<OnPlateSighting> seen = {};
 
-  /// How far it must go to count as moving, and how far it is followed.
+  /// Distance that counts as moving, and distance up to which it is followed.
   double least_px() const;
   double most_px() const;
   double slid_px() const;  ///< at most
@@ -45,11 +46,11 @@ struct OnPlateTrack {
 struct PlateGrains {
   PlateStrip strip;
   std::vector<OnPlateTrack> tracks = {};
-  double moved_px = 0;  ///< of the camera, at most, by the scene above the plate
+  double moved_px = 0;  ///< of the camera, at most, from the scene above the plate
 };
 
-/// All that stands on the plate when the film begins, followed along it. Looks through the film
-/// twice, the first time at some frames only.
+/// Everything that stands on the plate when the video begins, followed along it. Reads the video
+/// twice, the first time only some frames.
 PlateGrains grains_on_plate(const FilmFile& file, const FilmSurvey& survey,
                             const PlateMotion& motion, const FilmProgress& progress);
 

@@ -15,7 +15,7 @@ namespace repose::vision {
 
 namespace {
 
-constexpr float kMinStep = 2;  ///< grey levels a pixel, across an edge
+constexpr float kMinStep = 2;  ///< grey levels per pixel, across an edge
 
 double at(const cv::Mat& grey, const cv::Point2d& p) {
   const int x = cvFloor(p.x), y = cvFloor(p.y);
@@ -26,7 +26,7 @@ double at(const cv::Mat& grey, const cv::Point2d& p) {
          fy * ((1 - fx) * below[x] + fx * below[x + 1]);
 }
 
-/// Sums of the steps along all lines of one slope, a number for each row in the middle column.
+/// Sums of the steps along all lines of one slope, one for each row in the middle column.
 std::vector<double> sums_along(const cv::Mat& steps, double slope, double sign) {
   std::vector<double> sums(static_cast<std::size_t>(steps.rows));
   constexpr float kMaxStep = 10;  // so that a long faint edge counts for more than a short one
@@ -41,7 +41,7 @@ std::vector<double> sums_along(const cv::Mat& steps, double slope, double sign) 
   return sums;
 }
 
-/// The longest stretch in which the edge is seen, but for gaps as wide as a row of grains.
+/// The longest stretch in which the edge is visible, apart from gaps as wide as a row of grains.
 void find_ends(const cv::Mat& steps, PlateEdge& edge) {
   constexpr double kGap = .3;
   const int gap = cvRound(kGap * steps.cols);
@@ -68,7 +68,7 @@ void find_ends(const cv::Mat& steps, PlateEdge& edge) {
   close();
 }
 
-/// How far from the expected line the edge is, a number for each column where it is seen.
+/// Distances of the edge from the expected line, one for each column where it is visible.
 struct Offsets {
   std::vector<double> along, across;
   int looked = 0;
@@ -111,8 +111,8 @@ Offsets offsets_from(const cv::Mat& grey, const PlateEdge& edge, const EdgeLine&
   return offsets;
 }
 
-/// A straight line through offsets, which leaves out those far from it: offset, slope, and how many
-/// lie on it.
+/// A straight line through offsets, excluding outliers: offset, slope, and the number of points on
+/// it.
 struct OffsetLine {
   double offset = 0, slope = 0;
   int on = 0;
@@ -205,7 +205,7 @@ std::vector<PlateEdge> level_edges(const cv::Mat& grey, const cv::Mat& moves) {
                    .from = 0,
                    .to = steps.cols - 1};
     edge.line.offset_px = edge.line.normal().dot(cv::Point2d(.5 * steps.cols, one.row));
-    // Its ends are seen on the line itself, which may lean otherwise by half a step or more.
+    // Its ends are determined on the line itself, whose slope may differ by half a step or more.
     const double length = edge.to - edge.from;
     if (const auto seen = find_edge(grey, edge, edge.line)) edge.line = seen->line;
     edge.to = edge.from;
@@ -220,7 +220,7 @@ std::optional<SeenEdge> find_edge(const cv::Mat& grey, const PlateEdge& edge,
   constexpr int kFewest = 24;
   constexpr double kMinPart = .3;
   SeenEdge seen{.line = expected};
-  // Again from where it was found, where the normals are its own.
+  // Repeated from where it was found, with the normals of the line found.
   for (int round = 0; round < 2; ++round) {
     const Offsets offsets = offsets_from(grey, edge, seen.line);
     if (offsets.looked < kFewest) return std::nullopt;
@@ -240,11 +240,11 @@ namespace {
 
 constexpr double kMinPlateTurn_rad = .3 * kDegree;
 
-/// An edge that is followed.
+/// An edge being followed.
 struct FollowedEdge {
   PlateEdge edge;
   std::vector<PlateSighting> seen = {};
-  double parts = 0;  ///< sum of the parts seen
+  double parts = 0;  ///< sum of the visible fractions
   bool is_lost = false;
 };
 
@@ -261,7 +261,7 @@ cv::Mat moves_in(const std::vector<cv::Mat>& samples, int reduction) {
   return moves;
 }
 
-/// Where the edge will be when it turns on as it did.
+/// The edge's expected position if it continues to turn as before.
 EdgeLine expected_line(const FollowedEdge& followed, double time_s) {
   if (followed.seen.empty()) return followed.edge.line;
   const PlateSighting& last = followed.seen.back();
@@ -290,7 +290,7 @@ void follow(FollowedEdge& followed, const cv::Mat& grey, int frame, double time_
   followed.is_lost = time_s - last_s > kPatience_s;
 }
 
-/// Its lean before it turns, how long it has that, and how much single frames scatter.
+/// Its slope before it turns, how long it keeps that, and the scatter of single frames.
 void read_rest(PlateMotion& motion) {
   constexpr double kMinNoise_rad = 1e-5;
   constexpr double kStill_rad = .06 * kDegree, kSigmas = 5;
@@ -325,11 +325,11 @@ void read_turn(PlateMotion& motion) {
   motion.turned_rad = std::abs(farthest);
 }
 
-/// Of a line that turns about a point H at a distance h from it, the offset is n . H + h, with the
+/// For a line that turns about a point H at a distance h from it, the offset is n . H + h, with the
 /// normal n: least squares for H and h. Tested by track_accuracy of tests/bench, which draws plates
-/// with hinges in and out of the picture.
+/// with hinges inside and outside the picture.
 void find_hinge(PlateMotion& motion) {
-  // Counted from a point of the edge, so that lean and offset err independently of each other.
+  // Counted from a point of the edge, so that the errors of slope and offset are independent.
   const double middle = .5 * (motion.edge.from + motion.edge.to);
   const cv::Point2d base(middle, motion.seen.front().line.row_at(middle));
   cv::Matx33d normal = cv::Matx33d::zeros();
@@ -346,7 +346,7 @@ void find_hinge(PlateMotion& motion) {
     normal += terms * terms.t();
     right += offset_of(one) * terms;
   }
-  constexpr double kLeast = 1e-9;  // a plate that hardly turns leaves its hinge open
+  constexpr double kLeast = 1e-9;  // a plate that hardly turns leaves its hinge undetermined
   for (int k = 0; k < 3; ++k) normal(k, k) += kLeast * static_cast<double>(motion.seen.size());
   const cv::Vec3d solution = normal.solve(right, cv::DECOMP_CHOLESKY);
   motion.hinge = base + cv::Point2d(solution[0], solution[1]);
@@ -359,9 +359,9 @@ void find_hinge(PlateMotion& motion) {
   motion.wobble_px = std::sqrt(squares);
 }
 
-/// Once the plate has begun to turn, its line must lie where one that turns about the hinge lay at
-/// rest. Where it jumps, it was another one in part: a table's edge behind the plate, of which it
-/// gets clear. A line that leaves its place over some part of its length leans by the jump over
+/// Once the plate has begun to turn, its line must lie where a line that turns about the hinge lay
+/// at rest. If it jumps, it was partly another line: a table's edge behind the plate, which then
+/// comes clear of it. A line that is displaced over part of its length is tilted by the jump over
 /// that length.
 void find_level_error(PlateMotion& motion) {
   constexpr double kFrom_rad = .5 * kDegree, kTo_rad = 2.5 * kDegree, kPart = .2;
@@ -392,7 +392,7 @@ std::optional<PlateMotion> motion_of(FollowedEdge& followed, int reduction) {
   return motion;
 }
 
-/// How sure an edge is that of a plate.
+/// How likely an edge is to be a plate's.
 double weight_of(const PlateMotion& motion) {
   constexpr double kEnough_rad = 8 * kDegree;
   return (motion.edge.to - motion.edge.from) * motion.seen_part *
@@ -405,7 +405,7 @@ std::optional<PlateMotion> plate_among(std::vector<PlateMotion> motions) {
   const auto best =
       std::max_element(motions.begin(), motions.end(),
                        [](const auto& a, const auto& b) { return weight_of(a) < weight_of(b); });
-  // The same line may have been found twice, a second time with a part of its length.
+  // The same line may have been found twice, the second time only in part.
   constexpr double kAlike = .1, kMinWeight = .45, kSame_px = 1;
   const auto row = [column = .5 * (best->edge.from + best->edge.to)](const PlateMotion& motion) {
     return motion.seen.front().line.row_at(column);
@@ -449,7 +449,7 @@ std::optional<PlateMotion> plate_in_film(const FilmFile& file, const FilmSurvey&
 
 namespace {
 
-/// Of the last row above the edge, so that none of the plate is mixed in.
+/// Distance of the strip's last row above the edge, so that none of the plate is mixed in.
 constexpr double kAbove_px = 1.5;
 
 }  // namespace
@@ -461,7 +461,7 @@ double along_plate(const PlateMotion& motion, int column) {
 
 PlateStrip strip_above(const PlateMotion& motion, const cv::Size& frame) {
   constexpr double kHeight = .3;
-  // Something may hide the end of the edge that it stands on.
+  // Something may hide the end of the edge that the grain stands on.
   constexpr double kBeyond = .08;
   const int beyond = cvRound(kBeyond * frame.width);
   const double from = along_plate(motion, std::max(0, motion.edge.from - beyond));

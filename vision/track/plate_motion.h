@@ -11,13 +11,13 @@
 
 namespace repose::vision {
 
-/// A straight line in a frame, in pixels with pixel centres at whole numbers.
+/// A straight line in a frame, in pixels with pixel centres at integers.
 struct EdgeLine {
-  double roll_rad = 0;   ///< against the frame's rows; above 0: its right end is lower
+  double roll_rad = 0;   ///< from the frame's rows; > 0: its right end is lower
   double offset_px = 0;  ///< along the normal, from the frame's first pixel
 
   cv::Point2d along() const;
-  cv::Point2d normal() const;  ///< at right angles to it, downwards
+  cv::Point2d normal() const;  ///< perpendicular to it, downwards
   double row_at(double column) const;
 };
 
@@ -25,25 +25,25 @@ struct EdgeLine {
 struct PlateEdge {
   EdgeLine line;
   double step = 1;  ///< 1: brighter below it; -1: darker
-  int from = 0;     ///< columns between which it is seen
+  int from = 0;     ///< columns between which it is visible
   int to = 0;
 };
 
-/// An edge found anew.
+/// An edge found again.
 struct SeenEdge {
   EdgeLine line;
-  double seen_part = 0;  ///< of its columns, those where it is
+  double seen_part = 0;  ///< fraction of its columns in which it is visible
 };
 
-/// A frame's brightness, as edges are looked for in it.
+/// A frame's brightness, prepared for edge detection.
 cv::Mat edge_picture(const cv::Mat& bgr);
 
-/// Long edges that are level or nearly so, of what moves.
+/// Long edges of moving objects that are level or nearly so.
 /// @param grey   see edge_picture()
-/// @param moves  not 0 where frames of the film differ
+/// @param moves  nonzero where the video's frames differ
 std::vector<PlateEdge> level_edges(const cv::Mat& grey, const cv::Mat& moves);
 
-/// The edge near where it is expected; none where most of it is not seen.
+/// The edge near its expected place; std::nullopt if too little of it is visible.
 std::optional<SeenEdge> find_edge(const cv::Mat& grey, const PlateEdge& edge,
                                   const EdgeLine& expected);
 
@@ -54,52 +54,54 @@ struct PlateSighting {
   EdgeLine line;
 };
 
-/// A plate that turns about a hinge, which may be out of the picture. In pixels of frames that are
-/// reduced, with pixel centres at whole numbers.
+/// A plate that turns about a hinge, which may be outside the picture. In pixels of reduced frames,
+/// with pixel centres at integers.
 struct PlateMotion {
   int reduction = 1;
   PlateEdge edge;  ///< in the first frame
   std::vector<PlateSighting> seen;
-  double seen_part = 0;        ///< of the edge, on average
-  double level_rad = 0;        ///< its lean before it turns
-  double level_error_rad = 0;  ///< what that may be off by, as where a table's edge lies behind it
+  double seen_part = 0;        ///< fraction of the edge that is visible, on average
+  double level_rad = 0;        ///< its slope before it turns
+  double level_error_rad = 0;  ///< error of that, as from a table's edge behind it
   double rest_s = 0;           ///< how long it lies still at first
-  double noise_rad = 0;        ///< standard deviation of its lean in a frame
-  double sense = 1;            ///< 1: its right end sinks against the left one; -1: the other way
+  double noise_rad = 0;        ///< standard deviation of its slope in a frame
+  double sense = 1;            ///< 1: its right end sinks relative to the left; -1: the other way
   double turned_rad = 0;       ///< at most
   cv::Point2d hinge = {};
-  double above_px = 0;   ///< of the edge's line over the hinge, downwards
-  double wobble_px = 0;  ///< root mean square of what no turning about one hinge explains
+  double above_px = 0;   ///< of the edge's line from the hinge, positive downwards
+  double wobble_px = 0;  ///< root mean square deviation from a rotation about one hinge
 
   double turned_at(const PlateSighting& one) const {
     return sense * (one.line.roll_rad - level_rad);
   }
-  /// The point of the edge's line next to the hinge, from which places along the plate count.
+  /// The point of the edge's line nearest to the hinge; positions along the plate are counted from
+  /// it.
   cv::Point2d origin(const EdgeLine& line) const { return hinge + above_px * line.normal(); }
 };
 
-/// Follows all long level edges that move, from frame to frame, and takes the one that turns, the
-/// uppermost of parallel ones; none where none turns by more than a fraction of a degree.
+/// Follows all long, level, moving edges from frame to frame and takes the one that turns, the
+/// uppermost of parallel ones; std::nullopt if none turns by more than a fraction of a degree.
 std::optional<PlateMotion> plate_in_film(const FilmFile& file, const FilmSurvey& survey,
                                          const FilmProgress& progress);
 
-/// What stands above the plate's edge, turned so that the plate lies still: along the plate from
-/// left to right, its last row just above the edge.
+/// The picture above the plate's edge, rotated so that the plate lies still: along the plate from
+/// left to right, with its last row just above the edge.
 struct PlateStrip {
-  double from_px = 0;  ///< of its first column along the plate, from the origin beside the hinge
+  double from_px = 0;  ///< position of its first column along the plate, from the origin beside the
+                       ///< hinge
   cv::Size size;
 };
 
-/// How far along the plate from the origin the edge is in a column of the first frame.
+/// Position along the plate, from the origin, of the edge's point in a column of the first frame.
 double along_plate(const PlateMotion& motion, int column);
 
 PlateStrip strip_above(const PlateMotion& motion, const cv::Size& frame);
 
-/// @param frame  reduced as the motion is
+/// @param frame  reduced like the motion
 cv::Mat strip_picture(const cv::Mat& frame, const PlateMotion& motion, const EdgeLine& line,
                       const PlateStrip& strip);
 
-/// Where a place of the strip is in the frame.
+/// Converts a place in the strip to the frame.
 cv::Point2d in_frame(const cv::Point2d& place, const PlateMotion& motion, const EdgeLine& line,
                      const PlateStrip& strip);
 

@@ -19,20 +19,20 @@ namespace repose::vision {
 
 namespace {
 
-/// A straight line by least squares of the distances from it.
+/// A straight line by least squares of the perpendicular distances.
 struct PathLine {
   cv::Point2d middle;
-  cv::Point2d along;           ///< of length 1, the way that was gone
+  cv::Point2d along;           ///< unit vector in the direction of motion
   double offset_error_px = 0;  ///< standard error across the line, at its middle
   double angle_error_rad = 0;
 };
 
-/// Two straight lines after each other: down an incline, out on a flat.
+/// Two successive straight lines: down an incline, out on a flat.
 struct BentPath {
   PathLine incline;
   PathLine flat;
-  double rms_px = 0;           ///< of the places from their lines
-  double left_out = 0;         ///< part of the places that lie on none, as where a grain hops
+  double rms_px = 0;           ///< of the places about their lines
+  double left_out = 0;         ///< fraction of the places on neither line, as where a grain hops
   double bend_rad = 0;         ///< between the lines, above 0
   double bend_error_rad = 0;   ///< standard error
   cv::Point2d corner;          ///< where the lines meet
@@ -41,10 +41,10 @@ struct BentPath {
 
 constexpr std::size_t kFewestInLine = 5;
 
-/// Neighbouring places err alike: so many count as one.
+/// Errors of neighbouring places are correlated: this many count as one.
 constexpr double kPlacesAlike = 3;
 
-/// Sums of places that are added one by one.
+/// Running sums over places.
 class LineSums {
  public:
   void add(const cv::Point2d& p) {
@@ -58,7 +58,7 @@ class LineSums {
   }
   /// Sum of the squared distances from the line.
   double squares() const { return std::max(0.0, .5 * (xx_ + yy_) - half_spread()); }
-  /// Sum of the squared places along the line.
+  /// Sum of the squared positions along the line.
   double spread() const { return .5 * (xx_ + yy_) + half_spread(); }
   double count() const { return count_; }
 
@@ -95,8 +95,8 @@ double distance_from(const PathLine& line, const cv::Point2d& p) {
   return std::abs((p - line.middle).cross(line.along));
 }
 
-/// Of the places that lie on one line, without those that do not, as where a grain hops at the
-/// bend: it begins with the `sure` ones, which are farthest from there.
+/// Sums over the places on one line, excluding outliers, as where a grain hops at the bend: starts
+/// with the `sure` ones, which are farthest from the bend.
 LineSums sums_along(std::span<const cv::Point2d> places, std::span<const cv::Point2d> sure) {
   constexpr int kRounds = 4;
   constexpr double kFarOff = 3 * 1.4826, kNear_px = .6;
@@ -119,12 +119,12 @@ LineSums sums_along(std::span<const cv::Point2d> places, std::span<const cv::Poi
   return sums;
 }
 
-/// Standard error across the line, beside a place on it.
+/// Standard error across the line, at a place on it.
 double error_at(const PathLine& line, const cv::Point2d& p) {
   return std::hypot(line.offset_error_px, line.angle_error_rad * (p - line.middle).dot(line.along));
 }
 
-/// The number of the first place on the second line.
+/// Index of the first place on the second line.
 std::size_t bend_of(const std::vector<cv::Point2d>& path) {
   const std::vector<double> before = deviations(path);
   const std::vector<double> after = deviations({path.rbegin(), path.rend()});
@@ -135,9 +135,9 @@ std::size_t bend_of(const std::vector<cv::Point2d>& path) {
   return bend;
 }
 
-/// The two lines that fit best; none where fewer than 5 places lie on one of them, or both have one
-/// direction.
-/// @param path  in its order, without what lies still
+/// The two best-fitting lines; std::nullopt if there are too few places on one of them, or both
+/// have the same direction.
+/// @param path  in order, without places at rest
 std::optional<BentPath> bent_path_through(const std::vector<cv::Point2d>& path) {
   // The places next to the bend may be on both lines at once.
   if (path.size() < 2 * kFewestInLine + 2) return std::nullopt;
@@ -172,12 +172,12 @@ std::optional<BentPath> bent_path_through(const std::vector<cv::Point2d>& path) 
 }
 
 constexpr double kRollStill_s = .3;
-/// A bend is no foot beyond these.
+/// Bends outside these limits are not a foot.
 constexpr double kGentlest_rad = 3 * kDegree, kSteepestRoll_rad = 70 * kDegree;
 constexpr double kLevel_rad = 12 * kDegree;
 constexpr double kRollLean_rad = 2 * kDegree;
 
-/// A grain's path with the two lines along which its upper edge moves.
+/// A grain's path with the two lines followed by its upper edge.
 struct Roll {
   const GrainPath* path = nullptr;
   BentPath bent;
@@ -191,11 +191,11 @@ struct Rest {
   bool touches_edge = false;
 };
 
-/// Above the centre, where no shadow beneath the grain shifts it.
+/// The top of the grain, which a shadow beneath does not shift.
 cv::Point2d crest_of(const Blob& blob) { return {blob.centre.x, blob.crest_px}; }
 
 std::vector<cv::Point2d> moving_places(const GrainPath& path) {
-  constexpr double kStep_px = 1;  // places nearer to each other count once
+  constexpr double kStep_px = 1;  // places closer to each other count once
   std::vector<cv::Point2d> places;
   for (const Sighting& one : path) {
     if (one.blob.touches_edge) continue;
@@ -213,10 +213,10 @@ double width_px(const GrainPath& path) {
   return 2 * std::sqrt(*middle / CV_PI);
 }
 
-/// Of a direction against the level.
+/// Slope of a direction, from the horizontal.
 double slope_rad(const cv::Point2d& along) { return std::atan2(along.y, std::abs(along.x)); }
 
-/// Whether it runs down one line and on along a nearly level other one, and not just anyhow.
+/// Whether the path runs down one line and on along another, nearly level one.
 bool is_roll(const BentPath& bent, double width_px) {
   constexpr double kStraight = .15;  // of the grain's width
   constexpr double kMaxLeftOut = .3;
@@ -235,7 +235,7 @@ std::optional<Roll> roll_in(const FilmGrains& film) {
   for (const GrainPath& path : film.paths) {
     const auto bent = bent_path_through(moving_places(path));
     if (!bent || !is_roll(*bent, width_px(path))) continue;
-    // A shadow rolls along, less clearly seen.
+    // A shadow rolls along, but is less clearly visible.
     const double clear = way_px(path) * contrast_of(path);
     if (clear <= clearest) continue;
     clearest = clear;
@@ -244,7 +244,7 @@ std::optional<Roll> roll_in(const FilmGrains& film) {
   return best;
 }
 
-/// Where a path begins, or backwards where it ends: for as long as it stays there.
+/// The rest at the beginning of a path, or at its end with reversed iterators.
 template <typename Sightings>
 Rest rest_at(const Sightings& begin, const Sightings& end) {
   constexpr double kStill_px = 1;  // a grain at rest moves less
@@ -263,7 +263,7 @@ Rest rest_at(const Sightings& begin, const Sightings& end) {
 Rest first_rest(const GrainPath& path) { return rest_at(path.begin(), path.end()); }
 Rest last_rest(const GrainPath& path) { return rest_at(path.rbegin(), path.rend()); }
 
-/// Why it is not known where the grain comes to rest; empty: it is.
+/// Why the rest position is unknown; empty if it is known.
 std::string fault_of_end(const GrainPath& path, const Rest& rest, const FilmGrains& film) {
   const Blob& last = path.back().blob;
   if (last.touches_edge || rest.touches_edge) {
@@ -285,15 +285,15 @@ std::string fault_of_end(const GrainPath& path, const Rest& rest, const FilmGrai
       kRollStill_s);
 }
 
-/// PathLengths from the foot, in pixels, with standard errors.
+/// Distances from the foot, in pixels, with standard errors.
 struct PathLengths {
   double stopped_px = 0;
   double released_px = 0;
-  double foot_error_px = 0;  ///< of both, which it makes one shorter and the other longer
-  double end_error_px = 0;   ///< of each by itself
+  double foot_error_px = 0;  ///< of both: it makes one shorter and the other longer
+  double end_error_px = 0;   ///< of each, independently
 };
 
-/// By a scale in the picture.
+/// With a scale in the picture.
 void measure_by(const Estimate& scale, const PathLengths& ways, RollTrack& track) {
   const double error_px = base::kNormal95 * std::hypot(ways.foot_error_px, ways.end_error_px);
   const auto length_mm = [&](double px) {
@@ -305,7 +305,7 @@ void measure_by(const Estimate& scale, const PathLengths& ways, RollTrack& track
   track.released_mm = length_mm(ways.released_px);
 }
 
-/// By the way up the incline, which is known.
+/// With the known distance up the incline.
 void measure_by(double released_mm, const PathLengths& ways, RollTrack& track) {
   track.mm_per_px = released_mm / ways.released_px;
   const double value = ways.stopped_px * track.mm_per_px;
@@ -322,8 +322,8 @@ void read_roll(const Roll& roll, const FilmScale& scale, const TrackOptions& opt
                RollTrack& track) {
   const BentPath& bent = roll.bent;
   const Rest first = first_rest(*roll.path), last = last_rest(*roll.path);
-  // Planes lie half a width below the lines, so that the foot is before the path's corner. How high
-  // a grain rolls that is no sphere is not known.
+  // The planes lie half a width below the lines of the centre, so the foot is before the path's
+  // corner. The height at which a non-spherical grain rolls is unknown.
   constexpr double kShape = .15, kEnd_px = .3;
   const double radius = .5 * track.grain_px;
   const double before = radius * std::tan(.5 * bent.bend_rad);
@@ -352,7 +352,7 @@ void read_roll(const Roll& roll, const FilmScale& scale, const TrackOptions& opt
   track.has_reading = true;
 }
 
-/// In how many frames both are seen, well apart.
+/// Number of frames in which both are visible, well apart.
 int frames_apart(const GrainPath& path, const GrainPath& other, double least_px) {
   int frames = 0;
   auto one = path.begin();
@@ -365,7 +365,7 @@ int frames_apart(const GrainPath& path, const GrainPath& other, double least_px)
   return frames;
 }
 
-/// Whether something else moves at the same time, of like size and as clearly seen: a shadow is
+/// Whether something else of similar size moves at the same time, as clearly visible: a shadow is
 /// less clear, a hand larger.
 bool has_another(const FilmGrains& film, const GrainPath& path) {
   constexpr double kAbout = .6, kWidths = 2;
@@ -379,7 +379,7 @@ bool has_another(const FilmGrains& film, const GrainPath& path) {
   });
 }
 
-/// Reads the film's roll, or says why it cannot.
+/// Evaluates the roll, or returns why it cannot.
 std::string read(const FilmGrains& film, const std::optional<Roll>& roll, const FilmScale& scale,
                  const TrackOptions& options, RollTrack& track) {
   const std::string fault = fault_of(film);

@@ -12,13 +12,13 @@
 namespace repose::vision {
 namespace {
 
-/// Of a place between whole pixels, as drawn films show it.
+/// Error of a subpixel position, as found in rendered videos.
 constexpr double kMinSlideNoise_px = .1;
-/// Neighbouring places err alike: so many count as one.
+/// Errors of neighbouring places are correlated: this many count as one.
 constexpr double kAlikeInSlide = 3;
 constexpr double kChiSquare95 = 3.84;
 
-/// A number for each place, free of the place at rest and of what goes with the plate's turn.
+/// A value for each place, minus its mean and the part proportional to the plate's rotation.
 class FitColumn {
  public:
   template <typename Value>
@@ -47,7 +47,7 @@ class FitColumn {
   std::vector<double> values_;
 };
 
-/// Sum of squares of what a slide that begins at a time leaves over.
+/// Residual sum of squares of a slide that begins at a given time.
 double squares_left(std::span<const SlidAt> places, const FitColumn& slid, double begin_s) {
   const FitColumn step(places, [&](const SlidAt& one) {
     const double t = std::max(0.0, one.time_s - begin_s);
@@ -70,7 +70,7 @@ double squares_left(std::span<const SlidAt> places, const FitColumn& slid, doubl
   return std::max(0.0, left);
 }
 
-/// The place a moment before that one.
+/// The place a moment earlier.
 std::size_t shortly_before(std::span<const SlidAt> places, std::size_t place) {
   constexpr double kMoment_s = .12;
   std::size_t before = place;
@@ -78,15 +78,16 @@ std::size_t shortly_before(std::span<const SlidAt> places, std::size_t place) {
   return before;
 }
 
-/// The number of the last place at which it stands still: what comes after is the slide proper,
-/// what came before may have crept.
+/// The last place at which the object stands still: after it comes the slide proper; before it the
+/// object may have crept.
 std::size_t last_at_rest(std::span<const SlidAt> places, double still_px) {
   std::size_t k = places.size() - 1;
   while (k > 0 && places[k].slid_px - places[shortly_before(places, k)].slid_px >= still_px) --k;
   return k;
 }
 
-/// The first of the places before that one, up to a while before, between which it stands still.
+/// The first of the places before that one, within a limited time, between which the object stands
+/// still.
 std::size_t first_at_rest(std::span<const SlidAt> places, std::size_t last, double still_px) {
   constexpr double kBefore_s = 1.5;  // before the slide is seen
   std::size_t first = last;
@@ -97,7 +98,7 @@ std::size_t first_at_rest(std::span<const SlidAt> places, std::size_t last, doub
   return first;
 }
 
-/// By second differences, which nothing steady adds to.
+/// By second differences, which steady motion does not affect.
 double noise_of(std::span<const SlidAt> rest) {
   std::vector<double> bends;
   for (std::size_t k = 2; k < rest.size(); ++k) {
@@ -107,9 +108,8 @@ double noise_of(std::span<const SlidAt> rest) {
   return kMadToSigma * median(bends) / std::sqrt(6);
 }
 
-/// The way between the medians of short stretches that lie farthest apart, of what no hinge beside
-/// its place explains: that lets what lies still seem to move with the cosine and the sine of the
-/// plate's angle.
+/// The largest distance between the medians of short stretches, after removing what a misplaced
+/// hinge explains: an apparent motion with the cosine and the sine of the plate's angle.
 double crept_before(const std::vector<SlidAt>& places, double onset_s) {
   constexpr double kStretch_s = .3, kRidge = 1e-9;
   const auto terms_of = [](const SlidAt& one) {
@@ -139,7 +139,7 @@ double crept_before(const std::vector<SlidAt>& places, double onset_s) {
   return most - least;
 }
 
-/// A time without places around another one: longer than three usual steps, or none.
+/// A time without places around a given time: longer than three typical steps, otherwise none.
 struct Unseen {
   double from_s = 0;
   double to_s = 0;

@@ -18,7 +18,7 @@
 #include "vision/track/plate_grain.h"
 #include "vision/track/slide_onset.h"
 
-/// What keeps a film of a tilt from a reading, and what is to be known of one.
+/// What prevents a reading from a video of a tilt, and what to warn about.
 
 namespace repose::vision {
 
@@ -26,13 +26,13 @@ namespace {
 
 constexpr double kMinTurn_deg = 3;
 
-/// Longer ones show by their outline whether they turn.
+/// Elongation above which the outline shows whether the grain turns.
 constexpr double kRound = 1.25;
 
-/// A body that has turned by this much against the plate tips or rolls, as in the simulation.
+/// A body that has turned by this much relative to the plate tips or rolls, as in the simulation.
 constexpr double kTipped_rad = 5 * kDegree;
 
-/// A round one must show it by what is on it.
+/// A round grain shows it only by its surface pattern.
 constexpr double kRolled_rad = 12 * kDegree;
 
 constexpr double kShown = .3;
@@ -48,7 +48,7 @@ double most_apart_px(const OnPlateTrack& a, const OnPlateTrack& b) {
   return most;
 }
 
-/// The greatest change of the tilting rate within a tenth of a second, in the last second before
+/// The largest change of the tilting rate within a tenth of a second, during the last second before
 /// the onset.
 double jerk_deg_s(const PlateMotion& motion, double onset_s, double interval_s) {
   constexpr double kWithin_s = .1, kBefore_s = 1, kGap = 1.5;
@@ -57,9 +57,9 @@ double jerk_deg_s(const PlateMotion& motion, double onset_s, double interval_s) 
   double most = 0;
   for (std::size_t k = lag; k + lag < motion.seen.size(); ++k) {
     const double time_s = motion.seen[k].time_s;
-    // The first steps from rest are a change of rate too, and long over when a grain slides.
+    // The start of the motion also changes the rate, long before a grain slides.
     if (time_s < onset_s - kBefore_s || time_s > onset_s || turned(k - lag) < 1) continue;
-    // Where frames are missing it turns more in as many.
+    // Where frames are missing, the plate turns farther in the same number of frames.
     const double took_s =
         std::max(motion.seen[k + lag].time_s - time_s, time_s - motion.seen[k - lag].time_s);
     if (took_s > kGap * static_cast<double>(lag) * interval_s) continue;
@@ -87,7 +87,7 @@ class TiltWarnings {
  public:
   explicit TiltWarnings(TiltTrack& track) : track_(track) {}
 
-  /// What a person must look at first.
+  /// Something the user must check first.
   void flag(const char* code, std::string message) {
     is_doubtful_ = true;
     warn(code, std::move(message));
@@ -160,8 +160,8 @@ void warn_of_rate(const PlateMotion& motion, const TiltTrack& track, TiltWarning
   }
 }
 
-/// Whether the plate turns on as before by frames where their rate changes, and not by their time
-/// stamps: then these were stretched. None where it does not turn on both sides.
+/// Whether the plate turns evenly by frame number, but not by time stamp, where the frame rate
+/// changes: if so, the time stamps were stretched. False if it does not turn on both sides.
 bool is_retimed_at(const RateChange& change, const PlateMotion& motion,
                    const std::vector<double>& times_s) {
   constexpr double kSide_s = .5, kSigmas = 10;
@@ -200,7 +200,7 @@ void warn_of_times(const PlateMotion& motion, const OnPlateTrack& grain, const S
   }
 }
 
-/// Why the plate's angle cannot be read; empty: it can.
+/// Why the plate's angle cannot be read; empty if it can.
 std::string fault_of_plate(const std::optional<PlateMotion>& motion) {
   if (!motion) {
     return "no plate is seen to turn: no long straight edge, level when the film begins, that "
@@ -217,8 +217,8 @@ std::string fault_of_plate(const std::optional<PlateMotion>& motion) {
   return {};
 }
 
-/// Why no slide can be read off what stands on the plate; empty: it can.
-/// @param sliding  those that move, as numbers of tracks
+/// Why no slide can be read from the objects on the plate; empty if one can.
+/// @param sliding  the tracks that move, by index
 std::string fault_of_grains(const PlateGrains& grains, const std::vector<std::size_t>& sliding,
                             const PlateMotion& motion) {
   const auto& tracks = grains.tracks;
@@ -256,11 +256,11 @@ std::string fault_of_grains(const PlateGrains& grains, const std::vector<std::si
   return {};
 }
 
-/// Why what moves does not slide; empty: it does.
+/// Why the moving object does not slide; empty if it does.
 std::string fault_of_slide(const OnPlateTrack& grain, const PlateMotion& motion) {
   const bool is_round = grain.thing.elongation < kRound;
   for (const OnPlateSighting& one : grain.seen) {
-    // Down the plate: the light on a shaded grain seems to turn it the other way.
+    // Down the plate: the lighting of a shaded grain seems to turn it the other way.
     const double turned_rad = motion.sense * one.turned_rad;
     if (one.slid_px > .6 * grain.thing.height_px) break;
     if (turned_rad < (is_round ? kRolled_rad : kTipped_rad)) continue;
@@ -275,9 +275,9 @@ std::string fault_of_slide(const OnPlateTrack& grain, const PlateMotion& motion)
   return {};
 }
 
-/// Adds what is to be known.
+/// Adds the warnings.
 /// @param times_s  of all frames
-/// @returns whether a person must look at something first
+/// @returns whether the user must check something first
 bool warn_of_tilt(const PlateMotion& motion, const OnPlateTrack& grain, const SlideOnset& onset,
                   const std::vector<double>& times_s, TiltTrack& track) {
   TiltWarnings warnings(track);
@@ -304,20 +304,21 @@ bool warn_of_tilt(const PlateMotion& motion, const OnPlateTrack& grain, const Sl
   return warnings.is_doubtful();
 }
 
-/// Neighbouring frames err alike: so many count as one.
+/// Errors of neighbouring frames are correlated: this many count as one.
 constexpr double kFramesAlike = 3;
-/// What drawn films show to be left: of edges in a textured scene, and of the law of the slide.
+/// Remaining error found in rendered videos: from edges in a textured scene, and from the law of
+/// the slide.
 constexpr double kMin_deg = .03;
 
-/// The plate's angle as a straight line of the time, by least squares.
+/// The plate's angle as a linear function of time, by least squares.
 struct AngleLine {
-  double angle_deg = 0;  ///< at the time that was asked for
+  double angle_deg = 0;  ///< at the requested time
   double angle_error_deg = 0;
   double rate_deg_s = 0;
   double rate_error_deg_s = 0;
 };
 
-/// None where the plate is seen in fewer than three frames in between.
+/// std::nullopt if the plate is seen in fewer than three frames in between.
 std::optional<AngleLine> angle_between(const PlateMotion& motion, double from_s, double to_s,
                                        double at_s) {
   double count = 0, mean_t = 0, mean_a = 0, tt = 0, ta = 0, aa = 0;
@@ -342,7 +343,7 @@ std::optional<AngleLine> angle_between(const PlateMotion& motion, double from_s,
   return line;
 }
 
-/// In the film's own pixels, counted from the corner of its first one.
+/// In the video's own pixels, counted from the corner of the first one.
 Point point_of(const cv::Point2d& at, const PlateMotion& motion) {
   return {motion.reduction * (at.x + .5), motion.reduction * (at.y + .5)};
 }
@@ -381,7 +382,7 @@ void read_plate(const PlateMotion& motion, TiltTrack& track) {
   }
 }
 
-/// False where the plate is not seen about it.
+/// False if the plate is not seen around that time.
 bool read_onset(const PlateMotion& motion, const PlateGrains& grains, const OnPlateTrack& grain,
                 const SlideOnset& onset, TiltTrack& track) {
   constexpr double kAround_s = .2, kFramesAround = 2.5;
@@ -420,7 +421,7 @@ std::vector<std::size_t> sliding_among(const PlateGrains& grains) {
   return sliding;
 }
 
-/// Reads the slide, or says why it cannot.
+/// Evaluates the slide, or returns why it cannot.
 std::string read_slide(const PlateMotion& motion, const PlateGrains& grains,
                        const FilmSurvey& survey, TiltTrack& track) {
   const std::vector<std::size_t> sliding = sliding_among(grains);

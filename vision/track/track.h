@@ -12,17 +12,17 @@
 #include "vision/measure/scale_bar.h"
 #include "vision/picture/picture.h"
 
-/// Films: what all experiments that are tracked have in common.
+/// Videos: common parts of all tracked experiments.
 namespace repose::vision {
 
 struct TrackOptions {
-  std::optional<ScaleBar> scale = {};  ///< in the frames as they are
-  /// Of a board that stands in the picture, in place of a scale.
+  std::optional<ScaleBar> scale = {};  ///< in uncorrected frames
+  /// A board in the picture, instead of a scale.
   std::optional<BoardPlacing> board = {};
-  /// Of a roll without a scale: how far up the incline the grain was let go.
+  /// For a roll without a scale: how far up the incline the grain was released.
   std::optional<double> released_mm = {};
   bool draws_strobe = false;
-  /// UserHints which fraction of the work is done, from 0 to 1; may throw to stop it.
+  /// Called periodically with the completed fraction, 0 to 1; may throw to cancel.
   std::function<void(double)> progress = {};
 };
 

@@ -38,7 +38,7 @@ double rolled_distance_m(double mu_r, double incline_rad, double released_m, dou
 
 double rolling_friction_of(double incline_rad, double released_m, double stopped_m,
                            double radius_m) {
-  // The distance falls with the friction as long as the ball leaves the foot. By halving.
+  // The distance decreases with friction as long as the ball leaves the foot. Solved by bisection.
   double low = 0;
   double high =
       std::min(std::tan(incline_rad), (std::cos(incline_rad) + .4) / std::sin(incline_rad));
@@ -75,7 +75,7 @@ double sphericity_of(double length, double width, double thickness) {
 
 namespace {
 
-/// Of an experiment whose readings are averaged: the settings that its sheet repeats, and its
+/// For an experiment whose readings are averaged: the settings that its sheet repeats, and its
 /// value.
 Method mean_method(const dem::ExperimentEntry& entry) {
   const dem::MeanOfReadings& mean = *entry.sheet.mean;
@@ -164,7 +164,7 @@ void check_reading(const Method& method, const BenchReading& reading, base::Faul
   }
 }
 
-/// Results with and without what an optional column is for have no common mean.
+/// Results with and without a correction from an optional column have no common mean.
 void check_all_or_none(const Method& method, std::span<const BenchReading> readings,
                        base::Faults& errors) {
   for (const ReadingColumn& column : method.optional_columns) {
@@ -236,8 +236,8 @@ std::vector<std::string> notes_on(const Method& method, std::span<const BenchRea
   return notes;
 }
 
-/// Of drops from other heights than the rest: restitution falls with speed, and a later bounce that
-/// is taken for the first one falls from lower. Tested by Bench.DropsThatDifferAreNamed.
+/// Names drops from other heights than the rest: restitution falls with speed, and a later bounce
+/// mistaken for the first one falls from lower. Tested by Bench.DropsThatDifferAreNamed.
 void note_other_drops(const std::vector<ReadingColumn>& columns,
                       std::span<const BenchReading> readings, std::vector<std::string>& notes) {
   constexpr double kSame = .05;

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kDiameter = "diameter_mm";
 constexpr const char* kDensity = "density_kg_m3";
 
-// In restitution's columns, and in rolling's.
+// Columns of restitution, and of rolling.
 constexpr std::size_t kDrop = 0, kRebound = 1;
 constexpr std::size_t kIncline = 0, kReleased = 1, kStopped = 2;
 
@@ -30,7 +30,7 @@ double mean_of(std::span<const ReadingValues> readings,
 /// Whether heights are those of a fall in air.
 bool is_in_air(ReadingValues v) { return v.given(std::string(kInAirColumn)).value_or(1) != 0; }
 
-/// None: its drag is not known, or there is none.
+/// std::nullopt: its drag is unknown, or there is none.
 std::optional<base::FallingGrain> grain_in_air(ReadingValues v) {
   const auto diameter_mm = v.given(kDiameter);
   const auto density = v.given(kDensity);
@@ -84,7 +84,7 @@ std::optional<base::Fault> drop_error(ReadingValues v) {
                      .fix = "check the grain's diameter and density."};
 }
 
-/// With and without the air's drag, heights mean different numbers, and their mean none.
+/// Heights with and without air drag are different quantities, so their mean is meaningless.
 std::optional<base::Fault> mixed_air_error(std::span<const ReadingValues> readings) {
   const auto in_air = std::ranges::count_if(readings, is_in_air);
   if (in_air == 0 || in_air == std::ssize(readings) ||
@@ -146,11 +146,11 @@ double foot_mm(ReadingValues v, double diameter_mm) {
   return foot_distance_m(v[kIncline] * kDegree, diameter_mm * kMPerMm / 2) * kMmPerM;
 }
 
-/// Of a grain that stayed on the incline, however often it was let go.
+/// Whether the grain stayed on the incline, however often it was released.
 bool has_stayed(ReadingValues v) { return v[kStopped] == 0; }
 
-/// A ball in the corner touches both planes: it is let go above that, and stops beyond unless it
-/// stays where it is.
+/// A ball in the corner touches both planes: it must be released above that, and stops beyond
+/// unless it stays where it is.
 bool can_stop_there(ReadingValues v, double diameter_mm) {
   const double foot = foot_mm(v, diameter_mm);
   return v[kReleased] > foot && (has_stayed(v) || v[kStopped] > foot);
@@ -276,7 +276,7 @@ Method rolling_method() {
           .remarks = remarks_on_roll};
 }
 
-/// A bed of grains has no formula, the simulation stands for it.
+/// A bed of grains has no formula; the simulation takes its place.
 Method drop_on_grains_method() {
   Method method = restitution_method();
   method.name = "drop_on_grains";

@@ -17,10 +17,10 @@ constexpr double kM3PerMl = 1e-6;
 constexpr double kKgPerG = 1e-3;
 constexpr double kRightAngle_deg = 90;
 
-/// A bound that 0 itself is above.
+/// A lower bound that 0 itself is above.
 constexpr double kFromZero = -1e-300;
 
-/// One repeat of a test, as its formulas see it.
+/// One repeat of a test, as its formulas use it.
 class ReadingValues {
  public:
   ReadingValues(std::span<const double> values, const std::map<std::string, double>& optional)
@@ -39,31 +39,31 @@ class ReadingValues {
   const std::map<std::string, double>* optional_;
 };
 
-/// What comes out of a test.
+/// One result of a test.
 struct MethodOutput {
   std::string name;
   std::string unit;
   std::string what;
   std::function<double(ReadingValues)> of;
-  /// The mean cannot lie below or above these; its interval may reach over when repeats are few.
+  /// Limits of the mean; its interval may extend beyond them when repeats are few.
   double least = 0;
   double greatest = std::numeric_limits<double>::infinity();
 };
 
-/// How a test is worked out.
+/// How a test is evaluated.
 struct Method {
   std::string name;
   std::string source;
   std::vector<ReadingColumn> columns;
   std::vector<MethodOutput> outputs;
-  /// What is wrong with a reading whose single values are all possible.
+  /// Error of a reading whose single values are all possible.
   std::function<std::optional<base::Fault>(ReadingValues)> error;
-  /// What the number is and is not; always said.
+  /// What the number does and does not mean; always reported.
   std::string validity;
   std::vector<ReadingColumn> optional_columns = {};
-  /// What to know about these readings beside that, a sentence each.
+  /// Further remarks on these readings, a sentence each.
   std::function<std::vector<std::string>(std::span<const ReadingValues>)> remarks = {};
-  /// What is wrong with readings together, each of which is possible.
+  /// Error of the readings as a whole, each of which is possible.
   std::function<std::optional<base::Fault>(std::span<const ReadingValues>)> error_of_all = {};
 };
 

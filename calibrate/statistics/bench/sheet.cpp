@@ -13,7 +13,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// A row's readings, and those that hold for all rows; none if one is missing or no number.
+/// A row's readings, and those common to all rows; std::nullopt if one is missing or not a number.
 std::optional<std::vector<double>> values_in(const Table& table, const TableRow& row,
                                              const std::map<std::string, double>& constants,
                                              const std::vector<std::string>& names) {
@@ -32,7 +32,7 @@ std::optional<std::vector<double>> values_in(const Table& table, const TableRow&
   return values;
 }
 
-/// Of the optional columns what a row has, and what holds for all rows.
+/// The optional values that a row has, and those common to all rows.
 std::map<std::string, double> optional_values_in(const Table& table, const TableRow& row,
                                                  const std::map<std::string, double>& constants,
                                                  const std::vector<std::string>& names) {
@@ -47,8 +47,8 @@ std::map<std::string, double> optional_values_in(const Table& table, const Table
   return values;
 }
 
-/// The columns that must hold numbers: those that the table must have, and optional ones that it
-/// has. Those that it has and must not are errors.
+/// The columns that must hold numbers: those required, and optional ones present. Columns that must
+/// not be present are errors.
 std::vector<NumberColumn> needed_columns(const Table& table,
                                          const std::map<std::string, double>& constants,
                                          BenchTest test, base::Faults& errors) {
@@ -121,7 +121,7 @@ Sheet sheet_of(Table table, BenchTest test, const std::map<std::string, double>&
   const auto sample = table.column(kSampleColumn);
   for (const TableRow& row : table.rows) {
     auto values = values_in(table, row, constants, names);
-    if (!values || unclear.contains(row.line)) continue;  // said above
+    if (!values || unclear.contains(row.line)) continue;  // reported above
     sheet.readings.push_back({.place = fmt::format("{}:{}", table.name, row.line),
                               .values = *std::move(values),
                               .sample = sample ? row.cells[*sample] : "",

@@ -20,7 +20,7 @@ namespace repose::calibrate {
 namespace {
 
 /// Adds an error for too few or too many factors, ranges that are empty or not finite, and names
-/// that are missing or the same.
+/// that are missing or duplicate.
 void check_factors(const std::vector<Factor>& factors, std::size_t least, std::size_t most,
                    base::Faults& errors) {
   errors.require(
@@ -33,7 +33,7 @@ void check_factors(const std::vector<Factor>& factors, std::size_t least, std::s
     errors.require(
         names.insert(factor.name).second,
         {.where = factor.name, .value = "is named twice", .fix = "give each factor once."});
-    constexpr double kMax = 1e100;  // squares and differences of levels are still numbers
+    constexpr double kMax = 1e100;  // squares and differences of levels stay finite
     errors.require(!(std::abs(factor.low) > kMax || std::abs(factor.high) > kMax),
                    {.value = fmt::format("{} = {:g}:{:g}: a level is out of range", factor.name,
                                          factor.low, factor.high),
@@ -47,7 +47,7 @@ void check_factors(const std::vector<Factor>& factors, std::size_t least, std::s
   }
 }
 
-/// Adds an error for a number that is not from `least` to `most`.
+/// Adds an error for a number that is not between `least` and `most`.
 void check_count(const char* what, int count, int least, int most, base::Faults& errors) {
   errors.require(count >= least && count <= most,
                  {.value = fmt::format("{} = {}:", what, count),
@@ -118,7 +118,7 @@ Design line_of_runs(const std::vector<std::string>& names, const std::vector<dou
                                                                        .rule = "must be finite",
                                                                        .fix = "give numbers."});
     moves = moves || step[i] != 0;
-    // One coded unit is one step; a factor that stays has any range.
+    // One coded unit is one step; the range of a constant factor is arbitrary.
     const double half = step[i] != 0 ? step[i] : 1;
     design.factors.push_back({names[i], start[i] - half, start[i] + half});
   }
@@ -134,7 +134,7 @@ Design line_of_runs(const std::vector<std::string>& names, const std::vector<dou
 }
 
 void randomise_order(Design& design, std::uint64_t seed) {
-  // Fisher and Yates' shuffle; 53 random bits over so few runs are even to 1e-12.
+  // Fisher-Yates shuffle; 53 random bits over so few runs are uniform to 1e-12.
   base::Random random(seed);
   for (std::size_t left = design.runs.size(); left > 1; --left) {
     const auto pick = static_cast<std::size_t>(random.uniform() * static_cast<double>(left));
@@ -147,11 +147,11 @@ namespace {
 constexpr int kMaxLatinRuns = 2000;
 constexpr std::size_t kMaxFactors = 20;
 
-/// A Latin hypercube of whole levels 0 ... runs - 1, and how crowded it is.
+/// A Latin hypercube of whole levels 0 ... runs - 1, and its crowding.
 ///
 /// phi = sum over pairs of d^-2p, p = 8, d in levels (Morris and Mitchell 1995, J. Stat. Planning
-/// and Inference 43, eq. 1, without the root): large p makes the closest pairs decide. Only sums
-/// and products of exact squares, so that every machine takes the same decisions.
+/// and Inference 43, eq. 1, without the root): large p makes the closest pairs decide. Uses only
+/// sums and products of exact squares, so that every machine makes the same decisions.
 class Hypercube {
  public:
   Hypercube(std::size_t runs, std::size_t factors, base::Random& random)
@@ -223,7 +223,7 @@ class Hypercube {
 };
 
 Hypercube best_hypercube(std::size_t runs, std::size_t factors, std::uint64_t seed) {
-  // Some seconds at most, for 2000 runs; small designs get all that helps.
+  // A few seconds at most, for 2000 runs; small designs get as many exchanges as are useful.
   constexpr std::size_t kStarts = 5, kUseful = 100, kMaxPairUpdates = 50'000'000;
   const std::size_t exchanges =
       factors == 1 ? 0 : std::min(kUseful * runs * factors, kMaxPairUpdates / runs);
@@ -271,7 +271,7 @@ void add_centre(Design& design, int runs) {
   }
 }
 
-/// Every combination of -size and +size of the named factors, the first of them fastest.
+/// Every combination of -size and +size of the given factors, the first of them fastest.
 void add_corners(Design& design, const std::vector<std::size_t>& which, double size,
                  PointKind kind) {
   for (std::size_t corner = 0; corner < (std::size_t{1} << which.size()); ++corner) {
@@ -298,7 +298,7 @@ double alpha_of(const CompositeOptions& options, std::size_t factors) {
   return 1;
 }
 
-/// Blocks of factors that move together; numbered from 0. Box and Behnken (1960), table 1.
+/// Groups of factors varied together; numbered from 0. Box and Behnken (1960), table 1.
 std::vector<std::vector<std::size_t>> behnken_blocks(std::size_t factors) {
   if (factors == 6) {
     return {{0, 1, 3}, {1, 2, 4}, {2, 3, 5}, {0, 3, 4}, {1, 4, 5}, {0, 2, 5}};

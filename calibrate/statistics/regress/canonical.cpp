@@ -42,7 +42,7 @@ Quadratic surface_of(const Regression& regression) {
     } else if (term.size() == 1) {
       surface.gradient[index_of(term.front())] = coefficient.value;
     } else {
-      // An interaction is spread over B's two halves; a square gets both on the diagonal.
+      // An interaction is split between B's two halves; a square gets both on the diagonal.
       surface.curvature(index_of(term.front()), index_of(term.back())) += coefficient.value / 2;
       surface.curvature(index_of(term.back()), index_of(term.front())) += coefficient.value / 2;
     }
@@ -92,8 +92,8 @@ using Eigen::VectorXd;
 /// Each variable is held at its lower or upper bound, or free.
 enum class Hold { lower, upper, free };
 
-/// The point of one face, its free variables free of slope; none if it is not within the box or not
-/// a single point. In the latter case the surface has the same value, or a lower one, on the rim.
+/// The stationary point of one face in its free variables; std::nullopt if it is outside the box or
+/// not unique. In the latter case the surface has the same value, or a lower one, on the rim.
 std::optional<VectorXd> face_point(const Quadratic& surface, const Box& box,
                                    const std::vector<Hold>& holds) {
   VectorXd point = VectorXd::Zero(surface.gradient.size());
@@ -120,7 +120,7 @@ std::optional<VectorXd> face_point(const Quadratic& surface, const Box& box,
   return point;
 }
 
-/// The next face, counting in threes; false after the last.
+/// The next face, counting in base 3; false after the last.
 bool advance(std::vector<Hold>& holds) {
   for (Hold& hold : holds) {
     if (hold == Hold::lower) {
@@ -199,7 +199,7 @@ bool is_in_box(const Box& box, const VectorXd& point) {
   return true;
 }
 
-/// The same sign on every machine: the largest part is positive.
+/// A sign that is the same on every machine: the largest component is positive.
 VectorXd with_fixed_sign(const VectorXd& direction) {
   Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -243,10 +243,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Levels of each factor that are looked at, by the number of factors: as many as take a moment.
+/// Number of grid levels of each factor, by the number of factors: as many as take a moment.
 constexpr std::array<int, 4> kLevels = {1001, 201, 51, 21};
 
-/// Tells of any point whether the surface may be level there.
+/// Tests whether the surface may be stationary at a point.
 class LevelTest {
  public:
   explicit LevelTest(const Regression& regression)
@@ -269,7 +269,7 @@ class LevelTest {
   }
   Index count() const { return static_cast<Index>(regression_.coefficients.size()); }
 
-  /// Of each term (columns) by each factor.
+  /// Of each term (columns) with respect to each factor.
   MatrixXd derivatives_at(const VectorXd& coded) const {
     MatrixXd derivatives = MatrixXd::Zero(coded.size(), count());
     for (Index k = 0; k < count(); ++k) {

@@ -12,7 +12,7 @@
 
 namespace repose::calibrate {
 
-/// Eigen counts with a sign.
+/// Eigen uses signed indices.
 inline Eigen::Index index_of(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// q(x) = a + g'x + x'Bx, B symmetric.
@@ -42,7 +42,7 @@ void set_natural(Regression& regression);
 
 using Box = std::vector<std::array<double, 2>>;
 
-/// Where in the box the surface is lowest; the first such point found.
+/// The point of the box at which the surface is lowest; the first such point found.
 Eigen::VectorXd lowest_in_box(const Quadratic& surface, const Box& box);
 
 /// Natural levels, the surface and its interval at a coded point.

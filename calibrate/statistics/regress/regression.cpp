@@ -29,7 +29,7 @@ using Eigen::MatrixXd;
 
 using Eigen::VectorXd;
 
-/// Whether values, one of each run, differ between runs of one block.
+/// Whether values, one for each run, differ between runs of one block.
 bool varies_within(const Blocks& blocks, const std::vector<double>& values) {
   std::vector<std::optional<double>> first(blocks.labels.size());
   for (std::size_t run = 0; run < values.size(); ++run) {
@@ -40,12 +40,12 @@ bool varies_within(const Blocks& blocks, const std::vector<double>& values) {
   return false;
 }
 
-/// Of b blocks, b - 1.
+/// For b blocks, b - 1.
 std::size_t block_columns_of(const RunTable& table) {
   return table.blocks && !table.blocks->labels.empty() ? table.blocks->labels.size() - 1 : 0;
 }
 
-/// Adds every error: a block for each run, two blocks or more, a response that varies within them.
+/// Adds every error: needs a block for each run, two blocks or more, responses that vary in them.
 void check_blocks(const RunTable& table, base::Faults& errors) {
   if (!table.blocks) return;
   const Blocks& blocks = *table.blocks;
@@ -84,8 +84,8 @@ void add_block_columns(const Blocks& blocks, MatrixXd& design) {
 }
 
 /// The shifts, without their errors, from the coefficients of those columns; and what the blocks'
-/// means explain, before the terms: Montgomery, Design and Analysis of Experiments (8th ed.),
-/// sec. 4.1. In a design whose blocks are orthogonal, it is the same after them.
+/// means explain, before the terms: Montgomery, Design and Analysis of Experiments (8th ed.), sec.
+/// 4.1. In a design with orthogonal blocks, it is the same after them.
 FittedBlocks fitted_blocks(const RunTable& table, const VectorXd& values) {
   FittedBlocks fitted{.runs = *table.blocks, .effects = {}, .variance = {}};
   const std::size_t count = fitted.runs.labels.size();
@@ -149,9 +149,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The box's faces are walked one by one: 3^8 of them.
+/// The box's faces are visited one by one: 3^8 of them.
 constexpr std::size_t kMaxRegressed = 8;
-/// A column of which less than this share is its own follows from the others.
+/// A column with less than this fraction of its own is linearly dependent on the others.
 constexpr double kOwnFraction = 1e-9;
 
 bool is_constant(const std::vector<double>& values) {
@@ -296,15 +296,15 @@ void check_rank(const RunTable& table, const Regression& regression,
                           base::field("linear model"), base::field("factor columns"))});
 }
 
-/// F of a variance against an error's; none where the error is nothing but rounding.
+/// F of a variance against that of an error; left empty if the error is only rounding.
 void test_against(Variance& variance, const Variance& error, bool is_testable) {
   if (!is_testable || variance.df < 1) return;
   variance.f = variance.mean_square() / error.mean_square();
   variance.p = base::fisher_f_above(*variance.f, variance.df, error.df);
 }
 
-/// Residual = lack of fit + pure error. Montgomery, sec. 11.2: runs with equal levels can differ
-/// only by error, those of one block if there are blocks.
+/// Residual = lack of fit + pure error. Montgomery, sec. 11.2: runs with equal levels, of one block
+/// if there are blocks, can differ only by error.
 void split_residual(const RunTable& table, Regression& regression) {
   std::map<std::vector<double>, std::vector<double>> groups;
   for (std::size_t run = 0; run < table.responses.size(); ++run) {
@@ -339,7 +339,7 @@ void split_residual(const RunTable& table, Regression& regression) {
 }
 
 void set_residuals(Regression& regression, const Decomposition& decomposition) {
-  // Terms and blocks.
+  // Number of terms and blocks.
   const Index runs = decomposition.qr.rows(), terms = decomposition.qr.cols();
   const MatrixXd q = decomposition.qr.householderQ() * MatrixXd::Identity(runs, terms);
   double mean = 0, largest = 0;

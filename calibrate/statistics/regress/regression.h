@@ -19,8 +19,8 @@ enum class SurfaceModel {
   quadratic,    ///< and x_i^2
 };
 
-/// Which runs were made together, on one day or of one batch: all of a block may be shifted against
-/// those of another.
+/// Which runs were made together, on one day or from one batch: a whole block may be shifted
+/// relative to another.
 struct Blocks {
   std::string name;                  ///< of the column: "Day"
   std::vector<std::string> labels;   ///< of each block: "Mon", in the order of their first runs
@@ -30,7 +30,7 @@ struct Blocks {
 /// Results of runs.
 struct RunTable {
   std::string name;                         ///< for messages
-  std::vector<Factor> factors;              ///< how their levels are coded
+  std::vector<Factor> factors;              ///< define the coding of levels
   std::vector<std::vector<double>> levels;  ///< natural: [factor][run]
   std::string response_name;
   std::vector<double> responses;
@@ -45,8 +45,8 @@ std::vector<Term> terms_of(SurfaceModel model, std::size_t factors);
 /// "1", "e", "e*mu", "e^2".
 std::string name_of(const Term& term, const std::vector<Factor>& factors);
 
-/// What part of the scatter something explains, and whether chance would do as well. F and p do not
-/// exist where there is nothing to compare with.
+/// How much of the scatter something explains, and whether chance would do as well. F and p are
+/// absent if there is nothing to compare with.
 struct Variance {
   double sum_of_squares = 0;
   int df = 0;
@@ -69,12 +69,12 @@ struct Coefficient {
 struct FittedRun {
   std::vector<double> coded;
   double response = 0;
-  double fitted = 0;  ///< with the shift of its block
+  double fitted = 0;  ///< including the shift of its block
   double leverage = 0;
-  std::string block = {};  ///< its label, where runs are in blocks
+  std::string block = {};  ///< its label, if runs are in blocks
 };
 
-/// By how much a block is shifted against the mean of all blocks.
+/// Shift of a block relative to the mean of all blocks.
 struct BlockEffect {
   std::string label;
   int runs = 0;
@@ -82,7 +82,7 @@ struct BlockEffect {
   double standard_error = 0;
 };
 
-/// What the blocks do. They have no F: blocks are not assigned to runs by chance.
+/// Effects of the blocks. They have no F: blocks are not assigned to runs at random.
 struct FittedBlocks {
   Blocks runs;
   std::vector<BlockEffect> effects;  ///< they add up to 0
@@ -96,40 +96,40 @@ struct Regression {
   std::vector<Coefficient> coefficients;
   std::vector<double> covariance;  ///< of the coded coefficients, row by row
   std::vector<FittedRun> runs;
-  std::vector<std::array<double, 2>> box;  ///< coded levels that the runs span, of each factor
+  std::vector<std::array<double, 2>> box;  ///< range of coded levels of the runs, for each factor
 
   Variance explained;  ///< by all terms but the constant, beyond what the blocks explain
   Variance residual;
   Variance total;
   std::optional<Variance> pure_error;   ///< scatter of runs with the same levels
-  std::optional<Variance> lack_of_fit;  ///< the rest of the residual, against the pure error
+  std::optional<Variance> lack_of_fit;  ///< the rest of the residual, tested against the pure error
   std::vector<Variance> of_factor;      ///< what the fit loses without any term of a factor
   std::optional<FittedBlocks> blocks;
 
   double residual_sd = 0;
-  bool is_exact = false;  ///< nothing but rounding is left: no test is possible
+  bool is_exact = false;  ///< only rounding errors are left: no test is possible
   double r2 = 0;          ///< of the scatter within blocks, like the two that follow
   double r2_adjusted = 0;
-  /// Prediction sum of squares: each run foretold from the others. None if a run stands alone for
-  /// some term (leverage 1).
+  /// Prediction sum of squares: each run predicted from the others. std::nullopt if a run alone
+  /// determines some term (leverage 1).
   std::optional<double> press;
   std::optional<double> r2_predicted;
   double student_t = 0;  ///< 97.5 % point for the residual's degrees of freedom
 
-  /// At the mean of the blocks, each of which counts the same.
+  /// At the mean of the blocks, which all have equal weight.
   double predicted(std::span<const double> coded) const;
   /// Standard error of the surface there, not of a new run.
   double standard_error(std::span<const double> coded) const;
 };
 
-/// Least squares by QR decomposition. Montgomery, Design and Analysis of Experiments (8th ed.),
-/// ch. 10 and 11; blocks ch. 4 and 11.4.3. Proved by Regression.* and RegressionBlocks.* in
+/// Least squares by QR decomposition. Montgomery, Design and Analysis of Experiments (8th ed.), ch.
+/// 10 and 11; blocks ch. 4 and 11.4.3. Proved by Regression.* and RegressionBlocks.* in
 /// tests/calibrate/regress_test.cpp: the hazelnut study's printed analysis, R's lm, and NIST's
 /// Longley problem.
 ///
-/// @throws base::InputError  every error: no factors or more than 8, a constant factor or
-/// response, not more runs than terms and blocks, values that are not finite, terms that the design
-/// cannot tell from others or from blocks.
+/// @throws base::InputError  every error: no factors or more than 8, a constant factor or response,
+/// not more runs than terms and blocks, values that are not finite, terms confounded with others or
+/// with blocks.
 Regression regress(const RunTable& table, SurfaceModel model);
 
 }  // namespace repose::calibrate

@@ -23,7 +23,7 @@ bool contains(const Names& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Small letters and digits only: "Std Order" is stdorder.
+/// Lower-case letters and digits only: "Std Order" is stdorder.
 std::string plain_name(std::string_view column) {
   std::string name;
   for (const char letter : column) {
@@ -37,7 +37,7 @@ bool is_one_of(const std::string& name, std::initializer_list<std::string_view> 
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A column of a table: what it holds.
+/// Contents of a column of a table.
 class Column {
  public:
   Column(const Table& table, std::size_t place) {
@@ -54,7 +54,7 @@ class Column {
   bool is_empty() const { return numbers_.empty() && !has_text_; }
   bool is_text() const { return numbers_.empty() && has_text_; }
   std::size_t different() const { return counts_.size(); }
-  /// Two values or more, each in two rows or more.
+  /// At least two values, each in at least two rows.
   bool may_be_blocks() const {
     return counts_.size() > 1 && std::all_of(counts_.begin(), counts_.end(),
                                              [](const auto& one) { return one.second > 1; });
@@ -67,7 +67,7 @@ class Column {
              return number >= 0 && number == std::floor(number) && seen.insert(number).second;
            });
   }
-  /// Each from 0 or 1 on once.
+  /// Each number from 0 or 1 on, once.
   bool is_count() const {
     constexpr std::size_t kFewest = 4;
     if (rows_ < kFewest || !may_be_order()) return false;
@@ -82,7 +82,7 @@ class Column {
   std::size_t rows_ = 0;
 };
 
-/// What designs, programs for them and people write beside the levels, by its name; empty: it is
+/// What designs, design programs and people write beside the levels, recognised by its name; empty:
 /// something else.
 std::string bookkeeping_of(const std::string& name, const Column& column) {
   const std::string plain = plain_name(name);
@@ -102,19 +102,19 @@ std::string bookkeeping_of(const std::string& name, const Column& column) {
   return {};
 }
 
-/// What people call that which runs made together have in common; numbers of it are no levels.
+/// Usual names for what runs made together have in common; their numbers are not levels.
 bool is_name_of_blocks(const std::string& name) {
   return is_one_of(plain_name(name),
                    {"block", "blocks", "session", "shift", "batch", "lot", "series", "operator",
                     "person", "site", "lab", "machine", "rig", "replicate", "replication", "rep"});
 }
 
-/// Runs of one day may be a block, and an age in days may be a factor.
+/// Runs of one day may form a block, and an age in days may be a factor.
 bool sounds_like_blocks(const std::string& name) {
   return is_one_of(plain_name(name), {"day", "week", "month"});
 }
 
-/// Says of each column what it is.
+/// Determines the role of each column.
 class ColumnSorter {
  public:
   ColumnSorter(const Table& table, const RunColumns& wanted, base::Faults& errors)
@@ -162,7 +162,7 @@ class ColumnSorter {
                       : blocks_.empty()       ? "no blocks are wanted, and its name is no factor's"
                                               : "the blocks are those of " + blocks_);
     } else if (!wanted_.factors.empty()) {
-      return;  // left out by who named the factors
+      return;  // left out by naming the factors
     } else if (column.is_count()) {
       counts_.push_back(name);
     } else {
@@ -231,7 +231,7 @@ Blocks blocks_in(const Table& table, const std::string& name) {
   return blocks;
 }
 
-/// Which runs are corners of a central composite design: they are at -1 and +1.
+/// Which runs are corners of a central composite design, at -1 and +1.
 std::vector<bool> cube_runs(const Table& table) {
   const auto point = table.column("point");
   std::vector<bool> is_cube;

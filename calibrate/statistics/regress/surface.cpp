@@ -44,11 +44,11 @@ double r2_of_squares(const Regression& regression) {
   return regress(table, regression.model).r2;
 }
 
-/// An error's absolute value has a kink where the error is 0. Its signs: no response is negative;
-/// at least a fifth of them lie below a twentieth of the largest; and either the surface
+/// The absolute value of an error has a kink where the error is 0. Its signs: no response is
+/// negative; at least a fifth of them lie below a twentieth of the largest; and either the surface
 /// undershoots 0 by more than the residual's standard deviation, or the model leaves a fifth less
-/// of the scatter unexplained when the responses are squared, which takes a kink away (where more
-/// than 1 % is unexplained at all). A smooth response that touches 0 shows neither.
+/// of the scatter unexplained when the responses are squared, which removes a kink (if more than 1
+/// % is unexplained at all). A smooth response that touches 0 shows neither.
 bool looks_like_absolute_error(const Regression& regression, const SurfacePoint& lowest) {
   if (regression.is_exact) return false;
   constexpr double kNearZero = .05, kMany = .2, kMuchLess = .8;
@@ -229,7 +229,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using LowHigh = std::array<double, 2>;
 
-/// Where c + b t + a t^2 = 0. Without cancellation: Numerical Recipes, sec. 5.6.
+/// Solves c + b t + a t^2 = 0. Without cancellation: Numerical Recipes, sec. 5.6.
 std::vector<double> roots_of(double a, double b, double c) {
   if (a == 0) return b == 0 ? std::vector<double>{} : std::vector<double>{-c / b};
   const double square = b * b - 4 * a * c;
@@ -242,7 +242,7 @@ std::vector<double> roots_of(double a, double b, double c) {
   return roots;
 }
 
-/// Looks for the wanted value within the box.
+/// Searches for the target value within the box.
 class TargetSearch {
  public:
   TargetSearch(const Regression& regression, const WantedValue& target)
@@ -253,7 +253,7 @@ class TargetSearch {
     surface_.constant -= target.value;
   }
 
-  /// A point of the set: on the way from the lowest to the highest point; none if there is none.
+  /// A point of the set, on the line from the lowest to the highest; std::nullopt if there is none.
   std::optional<VectorXd> any_point() const {
     const VectorXd from = lowest_in_box(surface_, box_), to = lowest_in_box(-surface_, box_);
     if (surface_(from) > 0 || surface_(to) < 0) return std::nullopt;
@@ -266,7 +266,7 @@ class TargetSearch {
   }
 
   /// Levels of a factor at which the others can be chosen so that the target is met. Since the
-  /// surface is continuous, that is where it lies between the extremes over the others.
+  /// surface is continuous, that is where the target lies between the extremes over the others.
   std::vector<LowHigh> range_of(std::size_t factor, double known_level) const {
     const auto& [low, high] = box_[factor];
     constexpr std::size_t kManyFactors = 5;
@@ -314,7 +314,7 @@ class TargetSearch {
     return point;
   }
 
-  /// Lines along each factor, through a grid of `levels` levels of each other one.
+  /// Lines along each factor, through a grid of `levels` levels of each of the others.
   std::vector<Crossing> grid(int levels) const {
     std::vector<Crossing> crossings;
     for (std::size_t factor = 0; factor < box_.size(); ++factor) {
@@ -324,14 +324,14 @@ class TargetSearch {
   }
 
  private:
-  /// Whether the surface's interval at a point and that of the target allow them to be the same.
+  /// Whether the intervals of the surface at a point and of the target allow them to be equal.
   bool may_be_target(const VectorXd& point) const {
     const double half_width = point_at(regression_, point).uncertainty;
     return std::abs(surface_(point)) <= std::hypot(half_width, target_.uncertainty);
   }
 
-  /// How far along a factor that goes on from a crossing, down (-1) or up (1); empty: to the box's
-  /// end.
+  /// How far this extends along a factor from a crossing, down (-1) or up (1); std::nullopt: to the
+  /// end of the box.
   std::optional<double> end_of_interval(std::size_t factor, VectorXd point, int direction) const {
     const auto i = static_cast<Index>(factor);
     const auto& [low, high] = box_[factor];
@@ -371,7 +371,7 @@ class TargetSearch {
         const double middle = (possible + impossible) / 2;
         (is_possible(factor, middle, known_level) ? possible : impossible) = middle;
       }
-      // The box's own end is possible if what is next to it is.
+      // The box's own end is possible if its immediate neighbourhood is.
       const bool reaches = std::abs(possible - box_[factor][end]) < 1e-6 * step;
       range[end] = reaches ? box_[factor][end] : possible;
     }

@@ -12,7 +12,7 @@
 
 namespace repose::calibrate {
 
-/// A fitted surface and all that follows from it.
+/// A fitted surface and everything derived from it.
 struct SurfaceReport {
   Regression fit;
   std::optional<CanonicalForm> form;
@@ -21,11 +21,11 @@ struct SurfaceReport {
   std::vector<SurfaceDiagnostic> diagnostics;
 };
 
-/// @param target  a response that is wanted
+/// @param target  a target response
 SurfaceReport report_on(Regression fit, const std::optional<WantedValue>& target,
                         base::FieldNames names = {});
 
-/// What files and tables call models and shapes.
+/// Names of models and shapes in files and tables.
 inline constexpr std::array<std::pair<SurfaceModel, std::string_view>, 3> kSurfaceModelNames = {
     {{SurfaceModel::linear, "linear"},
      {SurfaceModel::interaction, "interaction"},

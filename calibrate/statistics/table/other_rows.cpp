@@ -18,7 +18,7 @@
 namespace repose::calibrate {
 
 std::string unit_in(std::string_view cell) {
-  // Each with the end that names of columns have for it.
+  // Each unit with its suffix in column names.
   constexpr std::string_view kUnits =
       " mm=mm cm=cm m=m µm=um um=um in=in inch=in deg=deg degree=deg degrees=deg °=deg grad=deg "
       "rad=rad g=g kg=kg mg=mg ml=ml l=l cm3=ml cm³=ml n=n kn=kn %=percent percent=percent "
@@ -38,8 +38,8 @@ std::string unit_in(std::string_view cell) {
 
 namespace {
 
-/// Small letters, and nothing but letters; without what is in brackets: "St. Dev. (n-1)" is stdev.
-/// Empty where there is a digit: "mean 2" is a name.
+/// Lower-case letters only, without what is in brackets: "St. Dev. (n-1)" is stdev. Empty if there
+/// is a digit: "mean 2" is a name.
 std::string plain_word(std::string_view cell) {
   std::string word;
   for (const char letter : cell.substr(0, cell.find_first_of("(["))) {
@@ -54,7 +54,7 @@ std::string plain_word(std::string_view cell) {
 
 /// In English, German, French, Spanish, Italian, Portuguese, Dutch, Polish, Czech, Swedish, Danish,
 /// Norwegian, Finnish, Hungarian, Turkish, Russian, Chinese, Japanese and Korean. All others are
-/// found by their numbers.
+/// recognised by their numbers.
 bool is_statistic(std::string_view cell) {
   constexpr std::string_view kWords =
       " mean means average avg median sd stdev stddev stdv std sdev standarddeviation stdeviation "
@@ -113,7 +113,7 @@ void take_units(Table& table, std::span<const std::size_t> numbers, OtherRows& o
   table.rows.erase(table.rows.begin());
 }
 
-/// "min" and "max" are also names of levels, again and again.
+/// "min" and "max" may also be names of levels, which recur.
 bool is_label(const Table& table, std::size_t place, const std::string& cell) {
   if (!is_statistic(cell)) return false;
   constexpr auto kLevels = std::to_array<std::string_view>(
@@ -123,8 +123,8 @@ bool is_label(const Table& table, std::size_t place, const std::string& cell) {
                        [&](const TableRow& row) { return row.cells[place] == cell; }) == 1;
 }
 
-/// How many readings, or their scatter: a name of a sample where nothing says that the samples
-/// ended.
+/// Number of readings, or their scatter: the name of a sample unless something shows that the
+/// samples have ended.
 bool is_short_label(const std::string& cell) {
   const std::string word = plain_word(cell);
   return word == "n" || word == "s" || word == "u" || word == "k";
@@ -132,7 +132,7 @@ bool is_short_label(const std::string& cell) {
 
 bool has_short_label(const TableRow& row) { return std::ranges::any_of(row.cells, is_short_label); }
 
-/// Line of the first row labelled as a statistic, or of how many readings there are above it.
+/// First line labelled as a statistic, or as the number of readings directly above that.
 int first_labelled_line(const Table& table) {
   const auto has_label = [&](const TableRow& row) {
     for (std::size_t place = 0; place < row.cells.size(); ++place) {
@@ -146,7 +146,7 @@ int first_labelled_line(const Table& table) {
   return first->line;
 }
 
-/// Rows labelled as a statistic. Below the first of them no readings are looked for.
+/// Rows labelled as a statistic. Rows below the first of them are not readings.
 void take_labelled(Table& table, OtherRows& other, base::Faults& errors) {
   const Table whole = table;
   const int first_line = first_labelled_line(table);
@@ -169,7 +169,7 @@ void take_labelled(Table& table, OtherRows& other, base::Faults& errors) {
   });
 }
 
-/// Of the last digit that is written.
+/// Place value of the last digit written.
 double step_of(std::string_view cell) {
   const std::size_t mark = cell.find_first_of(".,");
   const auto decimals = mark == std::string_view::npos ? 0 : cell.size() - mark - 1;
@@ -204,13 +204,13 @@ class Statistics {
   bool vary() const { return sd_ > 0; }
   bool is_mean(double value, double step) const { return is_same(value, mean_, step); }
 
-  /// Mean, scatter and so on, and no reading.
+  /// One of mean, scatter and so on, and not a reading.
   bool is_derived(double value, double step) const {
     return std::ranges::any_of(derived_, [&](double one) { return is_same(value, one, step); });
   }
 
-  /// How likely a further reading equals any of them to the digits written; none: this one does
-  /// not. Readings repeat others, so that the least of them is no sign: 1.
+  /// Probability that a further reading equals any of them to the digits written; std::nullopt:
+  /// this one does not. Readings recur, so equalling the smallest of them means nothing: 1.
   std::optional<double> chance_of(double value, double step) const {
     const auto is_it = [&](double one) { return is_same(value, one, step); };
     if (!is_derived(value, step)) {
@@ -236,7 +236,8 @@ class Statistics {
     constexpr double kHalf = .5 + 1e-6;
     return std::abs(value - one) <= kHalf * step;
   }
-  /// Of a further reading: mean + s sqrt(1 + 1/n) t, Student's t of n - 1 degrees of freedom.
+  /// Density of a further reading: mean + s sqrt(1 + 1/n) t, Student's t of n - 1 degrees of
+  /// freedom.
   double density_at(double value) const {
     const double df = n_ - 1, width = sd_ * std::sqrt(1 + 1 / n_);
     const double t = (value - mean_) / width;
@@ -247,11 +248,11 @@ class Statistics {
 
   double n_, mean_ = 0, sd_ = 0;
   std::vector<double> values_;
-  std::vector<double> derived_;   ///< worked out of them
-  std::vector<double> readings_;  ///< which are readings themselves, or may be
+  std::vector<double> derived_;   ///< calculated from them
+  std::vector<double> readings_;  ///< those that are readings themselves, or may be
 };
 
-/// Letters are written "a", digits "0", one for several digits: what is alike in names of samples.
+/// Letters become "a", a run of digits "0": the common pattern of sample names.
 std::string shape_of(std::string_view label) {
   std::string shape;
   for (const char letter : label) {
@@ -268,7 +269,7 @@ class Footer {
   Footer(const Table& table, std::span<const std::size_t> readings)
       : table_(table), readings_(readings) {}
 
-  /// How likely readings look like that; none: they do not.
+  /// Probability that readings look like that; std::nullopt: they do not.
   std::optional<double> chance_of_last(std::size_t count) const {
     const std::size_t head = table_.rows.size() - count;
     double chance = 1;
@@ -292,8 +293,8 @@ class Footer {
     return chance;
   }
 
-  /// Whether the last rows of a table of runs tell of those above, in settings as in readings: see
-  /// take_other_rows().
+  /// Whether the last rows of a table of runs summarise those above, in settings as in readings:
+  /// see take_other_rows().
   bool last_tell_of_runs(std::span<const std::size_t> settings, std::size_t count) const {
     constexpr double kUnlikely = .01, kUnlikelyReadings = .05;
     const std::size_t head = table_.rows.size() - count;
@@ -335,7 +336,7 @@ class Footer {
   }
 
  private:
-  /// Those of runs that failed have none.
+  /// Failed runs have none.
   std::vector<double> numbers_in(std::size_t place, std::size_t rows) const {
     std::vector<double> values;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -344,8 +345,8 @@ class Footer {
     return values;
   }
 
-  /// That readings of a run are all mean, scatter and so on of those above; 1 where one is not, or
-  /// where there is none.
+  /// Probability that readings of a run all equal mean, scatter and so on of those above; 1 if one
+  /// does not, or if there is none.
   double chance_of_readings(std::size_t row, std::size_t head) const {
     double chance = 1;
     for (const std::size_t place : readings_) {
@@ -398,7 +399,7 @@ std::string last_rows_text(const Table& table, std::size_t count) {
                      table.rows.back().line);
 }
 
-/// Rows at the end of a table of runs that are worked out of those above.
+/// Rows at the end of a table of runs that are calculated from those above.
 void find_unlabelled_of_runs(const Table& table, std::span<const std::size_t> readings,
                              std::span<const std::size_t> settings, base::Faults& errors) {
   constexpr std::size_t kMaxRows = 8, kFewestRuns = 3;
@@ -444,7 +445,7 @@ void find_unlabelled(const Table& table, std::span<const std::size_t> readings,
       table.name, table.rows.back().line));
 }
 
-/// Of grains that mostly stay where they fell, those that rebound are no slips.
+/// If grains mostly stay where they fell, those that rebound are not slips.
 bool are_mostly_equal(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::ranges::nth_element(values, middle);
@@ -464,7 +465,7 @@ void note_outliers(const Table& table, std::size_t place, const std::vector<doub
   }
 }
 
-/// A column of small numbers may be in another unit than its name says.
+/// A column of small numbers may be in a different unit from what its name says.
 void note_other_unit(const Table& table, const std::string& name, double most, OtherRows& other) {
   constexpr double kRightAngle_rad = 1.58, kWhole = 1;
   if (most > 0 && most < kRightAngle_rad && name.ends_with("_deg")) {
@@ -487,7 +488,7 @@ void note_doubtful(const Table& table, std::span<const std::size_t> readings, Ot
     for (const TableRow& row : table.rows) {
       if (const auto value = number_of(row.cells[place])) values.push_back(*value);
     }
-    // Cells that are no numbers are refused elsewhere.
+    // Cells that are not numbers are refused elsewhere.
     if (values.empty() || values.size() < table.rows.size()) continue;
     note_outliers(table, place, values, other);
     note_other_unit(table, table.columns[place], *std::ranges::max_element(values), other);

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// libcsv's parser. It is given line by line, so that a row's line is known.
+/// libcsv's parser, fed line by line so that the line of each row is known.
 class Parser {
  public:
   explicit Parser(char delimiter) {
@@ -35,7 +35,7 @@ class Parser {
   Parser(Parser&&) = delete;
   Parser& operator=(Parser&&) = delete;
 
-  /// False when the text breaks the rules of quoting.
+  /// False if the text breaks the quoting rules.
   bool add_line(int number, const std::string& line) {
     if (!is_in_row_) {
       if (line.find_first_not_of(" \t\r\n") == std::string::npos) return true;
@@ -71,7 +71,7 @@ std::string_view line_at(std::string_view text, std::size_t start) {
   return line;
 }
 
-/// How a spreadsheet is told what parts the cells, in a line of its own above the header.
+/// The delimiter declared to spreadsheets in a line of its own above the header.
 std::optional<char> told_delimiter(std::string_view text) {
   static const std::regex kLine("\"?sep=(;|,|\\t|\\|)\"?[;,\t ]*", std::regex::icase);
   const std::string first(line_at(text, 0));
@@ -92,7 +92,7 @@ char delimiter_of(std::string_view text) {
   return kNoDelimiter;
 }
 
-/// @param lines_before  of the file, before the text
+/// @param lines_before  lines of the file before the text
 std::vector<TableRow> rows_of(const std::string& name, std::string_view text, char delimiter,
                               int lines_before) {
   Parser parser(delimiter);
@@ -112,7 +112,7 @@ std::vector<TableRow> rows_of(const std::string& name, std::string_view text, ch
   return parser.take_rows();
 }
 
-/// What is no text, by its first bytes.
+/// Rejects files that are not text, by their first bytes.
 void check_kind(const std::string& name, std::string_view text) {
   struct Kind {
     std::string_view start;
@@ -176,7 +176,7 @@ void drop_what_is_empty(std::vector<TableRow>& rows) {
   }
 }
 
-/// In a table of one column, "1,22" under "2,23" may be a number and its row's: "3,25".
+/// In a table of one column, "1,22" under "2,23" may be a number with its row number: "3,25".
 void check_single_column(const Table& table) {
   constexpr std::size_t kFewest = 2;
   if (table.rows.size() < kFewest) return;
@@ -202,7 +202,7 @@ std::optional<double> without(std::string_view cell, char mark) {
   return number_of(digits);
 }
 
-/// What points and commas in the numbers of a table mean, as far as they tell.
+/// The meaning of points and commas in the numbers of a table, as far as it can be determined.
 class NumberMarks {
  public:
   NumberMarks(const Table& table, std::span<const std::size_t> columns) : table_(table) {
@@ -221,7 +221,7 @@ class NumberMarks {
     }
   }
 
-  /// What is wrong with a cell that must be a number.
+  /// Error of a cell that must be a number.
   std::optional<base::Fault> problem_of(const std::string& cell, const NumberColumn& column) const {
     const bool has_comma = cell.find(',') != std::string::npos;
     const bool has_point = cell.find('.') != std::string::npos;
@@ -271,7 +271,7 @@ class NumberMarks {
   bool has_decimal_point_ = false;
 };
 
-/// Whole numbers, each once; words are labels of rows that are no readings.
+/// Whether they are whole numbers, each once; words are labels of rows that are not readings.
 bool numbers_rows(const Table& table, std::size_t place) {
   std::set<double> numbers;
   for (const TableRow& row : table.rows) {
@@ -363,7 +363,7 @@ Table read_table(const std::filesystem::path& file, NoRows no_rows) {
 }
 
 std::string csv_text(const Table& table) {
-  // Others than the usual ones are told by a line of their own.
+  // Unusual delimiters are declared in a line of their own.
   const char delimiter = table.delimiter == '|' ? ';' : table.delimiter;
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string text;
@@ -402,7 +402,7 @@ std::optional<double> number_of(std::string_view cell) {
 }
 
 bool may_have_thousands(std::string_view cell, char mark) {
-  // Most cells end otherwise, and a pattern takes long in a table of a million.
+  // Most cells end differently, and a regex is slow in a table of a million.
   constexpr std::size_t kEnd = 4;  // ".012"
   const std::size_t last = cell.rfind(mark);
   if (last == cell.npos || last + kEnd != cell.size()) return false;
