@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kAir_kg_m3 = 1.204;  // dry, 20 C, 1013.25 hPa
 constexpr double kAirViscosity_pa_s = 1.82e-5;
-constexpr double kSphere = .999;  // sphericity from which on it is one
+constexpr double kSphere = .999;  // a grain of at least this sphericity counts as a sphere
 
 double sphere_drag_coefficient(double reynolds) {
   constexpr double kNewton = .44, kFromReynolds = 1000;
@@ -28,19 +28,20 @@ double haider_levenspiel(double reynolds, double phi) {
   return 24 / reynolds * (1 + a * std::pow(reynolds, b)) + c / (1 + d / reynolds);
 }
 
-/// d(v^2)/dz / 2 on the way down (`along` 1) or up (-1), taken from the highest point on, m/s2.
+/// d(v^2)/dz / 2 on the way down (`along` 1) or up (-1), with z measured from the highest point,
+/// m/s2.
 double acceleration_m_s2(const FallingGrain& grain, double speed2, double along) {
   const double own_m_s2 = kStandardGravity_m_s2 * (1 - kAir_kg_m3 / grain.density_kg_m3);
   const double speed = std::sqrt(std::max(0., speed2));
   if (speed == 0) return own_m_s2;
   const double reynolds = kAir_kg_m3 * speed * grain.diameter_m / kAirViscosity_pa_s;
-  // C_d (pi/4 d^2) (p/2 v^2) by the mass pi/6 d^3 q.
+  // C_d (pi/4 d^2) (rho_air/2 v^2) divided by the mass pi/6 d^3 rho_grain.
   const double drag_m_s2 = .75 * drag_coefficient(reynolds, grain.sphericity) * kAir_kg_m3 *
                            speed2 / (grain.density_kg_m3 * grain.diameter_m);
   return own_m_s2 - along * drag_m_s2;
 }
 
-/// At which drag and weight are equal: by halving.
+/// At which drag equals the buoyant weight; found by bisection.
 double terminal_speed_m_s(const FallingGrain& grain) {
   double low = 0;
   double high = 1e3;
@@ -52,7 +53,7 @@ double terminal_speed_m_s(const FallingGrain& grain) {
   return .5 * (low + high);
 }
 
-/// Runge and Kutta's method of fourth order for v^2 over the height.
+/// Fourth-order Runge-Kutta for v^2 over the height.
 double speed_m_s(const FallingGrain& grain, double height_m, double along) {
   constexpr int kSteps = 400;
   const double step_m = height_m / kSteps;
@@ -82,7 +83,7 @@ double drag_uncertainty(const FallingGrain& grain) {
 }
 
 double speed_after_fall_m_s(const FallingGrain& grain, double fall_m) {
-  // From a fall of so many times v^2 / g on the speed does not change any more.
+  // After a fall of this many times v^2 / g the speed no longer changes.
   constexpr double kLongFall = 40;
   const double terminal_m_s = terminal_speed_m_s(grain);
   return speed_m_s(

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-/// What is called a heap's angle of repose: definitions whose numbers differ by degrees for the
-/// same heap. All are of each flank, and then the mean of the two.
+/// Definitions of a heap's angle of repose; they differ by degrees for the same heap. Each is
+/// evaluated per flank, then averaged over both.
 namespace repose::base {
 
 struct AngleDefinition {
@@ -14,11 +14,11 @@ struct AngleDefinition {
   std::array<double, 2> window;  ///< stretch of the flank, as fractions of the height
 };
 
-/// The one that is meant where none is named.
+/// The default if none is named.
 inline constexpr AngleDefinition kUsualDefinition = {
     "flank_20_80", "robust line at 20-80 % of the height, aprons weighed", {.2, .8}};
 
-/// Least squares are ordinary ones, of height on distance.
+/// Least squares are ordinary, height on distance.
 inline constexpr std::array<AngleDefinition, 6> kAngleDefinitions = {
     {kUsualDefinition,
      {"height_over_base", "crest height over the base's half width (cone; ISO 4324)", {0, 1}},
@@ -27,7 +27,7 @@ inline constexpr std::array<AngleDefinition, 6> kAngleDefinitions = {
      {"outer_window", "least-squares line at 10-90 % of the height", {.1, .9}},
      {"whole_flank", "least-squares line from toe to crest", {0, 1}}}};
 
-/// Null for a name that there is not.
+/// nullptr for an unknown name.
 constexpr const AngleDefinition* find_definition(std::string_view name) {
   for (const AngleDefinition& definition : kAngleDefinitions) {
     if (definition.name == name) return &definition;
@@ -45,12 +45,12 @@ inline std::string definition_names() {
   return names;
 }
 
-/// Empty: none was named.
+/// Also true for an empty name: none was given.
 constexpr bool is_usual_definition(std::string_view name) {
   return name.empty() || name == kUsualDefinition.name;
 }
 
-/// The name of what is meant.
+/// The name itself, or the default's if it is empty.
 constexpr std::string_view definition_meant(std::string_view name) {
   return name.empty() ? kUsualDefinition.name : name;
 }

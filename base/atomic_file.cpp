@@ -28,7 +28,7 @@ constexpr mode_t kAsUsual = 0666;  // less what the process's mask takes away
 
 [[noreturn]] void fail() { throw std::system_error(errno, std::generic_category()); }
 
-/// Where a link leads to, whether that is there or not.
+/// The target of a link, whether it exists or not.
 fs::path place_of(const fs::path& file) {
   fs::path place = file;
   constexpr int kMaxLinks = 40;
@@ -40,13 +40,13 @@ fs::path place_of(const fs::path& file) {
   return place;
 }
 
-/// With what the names of a file's parts begin. Names have 255 bytes at most.
+/// Prefix of the names of a file's temporary files. File names have at most 255 bytes.
 std::string part_beginning(const fs::path& file) {
   constexpr std::size_t kMax = 200;
   return fmt::format(".{}.", file.filename().string().substr(0, kMax));
 }
 
-/// A name of its own for each process and call: two of them may write the same file at once.
+/// Unique per process and call: two of them may write the same file at once.
 fs::path part_name(const fs::path& file) {
   static std::atomic<unsigned> count{0};
   constexpr std::size_t kMax = 8;
@@ -54,12 +54,12 @@ fs::path part_name(const fs::path& file) {
                                        file.extension().string().substr(0, kMax));
 }
 
-/// A new file, locked as long as it is open; -1 when somebody took it for a leftover meanwhile.
+/// A new file, locked while it is open; -1 if another process removed it as a leftover meanwhile.
 int locked_file(const fs::path& part) {
   const int descriptor = ::open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kAsUsual);
   if (descriptor < 0) fail();
   struct stat status {};
-  // File systems without locks have no leftovers removed either.
+  // On file systems without locks, leftovers are not removed either.
   if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && ::fstat(descriptor, &status) == 0 &&
       status.st_nlink == 0) {
     ::close(descriptor);
@@ -68,15 +68,15 @@ int locked_file(const fs::path& part) {
   return descriptor;
 }
 
-/// To the disk. Devices and file systems that cannot do it have nothing to lose.
+/// Flushes to disk. Devices and file systems that cannot have nothing to lose.
 void flush(int descriptor) {
   if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP && errno != ENOSYS) fail();
 }
 
-/// The name too: it is an entry of its folder.
+/// Flushes the name too: it is an entry of its folder.
 void flush_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // it may be written to, not read
+  if (descriptor < 0) return;  // writable but not readable
   ::fsync(descriptor);
   ::close(descriptor);
 }
@@ -132,7 +132,7 @@ void TemporaryFile::write(std::span<const std::byte> content) const {
 void TemporaryFile::put_in_place() {
   struct stat earlier {};
   if (::stat(file_.c_str(), &earlier) == 0) {
-    // Another's file can be replaced, but not be given back to them.
+    // Another user's file can be replaced, but ownership cannot be given back.
     if (::fchown(descriptor_, earlier.st_uid, earlier.st_gid) != 0) errno = 0;
     if (::fchmod(descriptor_, earlier.st_mode & ALLPERMS) != 0) fail();
   }
@@ -149,7 +149,7 @@ void remove_leftovers_of(const fs::path& file) {
     remove_leftovers(folder_of(place),
                      [&](const std::string& name) { return name.starts_with(beginning); });
   } catch (const fs::filesystem_error&) {
-    return;  // who writes the file says what is wrong
+    return;  // writing the file will report the error
   } catch (const std::system_error&) {
     return;
   }
@@ -163,8 +163,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Devices and pipes (/dev/null, a named pipe) are written to; renaming would replace them. So are
-/// names of open streams such as /dev/stdout, whatever these are.
+/// Devices and pipes (/dev/null, a named pipe) are written to directly; renaming would replace
+/// them. So are names of open streams such as /dev/stdout, whatever they refer to.
 bool is_device(const fs::path& file) {
   std::error_code ignored;
   const fs::path folder = fs::weakly_canonical(folder_of(file), ignored);
@@ -186,13 +186,13 @@ void check_place(const fs::path& file) {
   }
 }
 
-/// Writes `content` to what is no file; the reason when it failed.
+/// Writes `content` to a device or pipe; returns the error if it failed.
 std::error_code write_to_device(const fs::path& file, std::span<const std::byte> content) {
   const auto system_error = [] { return std::error_code(errno, std::generic_category()); };
   std::FILE* out = std::fopen(file.c_str(), "wb");
   if (!out) return system_error();
   std::error_code error;
-  if (!content.empty() &&  // empty content may have no memory at all
+  if (!content.empty() &&  // empty content may have a null pointer
       std::fwrite(content.data(), 1, content.size(), out) != content.size()) {
     error = system_error();
   }
@@ -314,7 +314,7 @@ std::uintmax_t checked_size(const fs::path& file, const struct stat& status,
   return size;
 }
 
-/// To its end, wherever that is now: it may grow while it is read.
+/// Reads to the end, wherever that is now: the file may grow meanwhile.
 std::string read_all(const fs::path& file, const Descriptor& in, std::uintmax_t size,
                      std::uintmax_t largest) {
   std::string bytes;
@@ -334,7 +334,7 @@ std::string read_all(const fs::path& file, const Descriptor& in, std::uintmax_t 
 
 std::optional<std::string> read_file_if_there(const fs::path& file, std::uintmax_t largest_bytes) {
   struct stat status {};
-  // Looked at before it is opened: opening a device may already do something.
+  // Checked before it is opened: opening a device may have side effects.
   if (::stat(file.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
     refuse_unreadable(file, errno);

@@ -31,7 +31,7 @@ std::optional<std::vector<std::byte>> bytes_of_base64(std::string_view text) {
   if (padding > 2) return std::nullopt;
   std::vector<std::byte> bytes(base64::decoded_size(text.size()));
   const auto [written, read] = base64::decode(bytes.data(), text.data(), text.size());
-  // The library stops at the first letter that it does not know.
+  // The library stops at the first character outside the alphabet.
   if (written != bytes.size() - padding) return std::nullopt;
   bytes.resize(written);
   return bytes;

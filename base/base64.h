@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-/// Bytes as text, as RFC 4648 has it: what binary arrays of VTK's XML files are written in.
+/// Base64 (RFC 4648), the encoding of binary arrays in VTK's XML files.
 namespace repose::base {
 
 std::string base64_of(std::span<const std::byte> bytes);
 
-/// Blanks and line breaks at either end are skipped. None when the rest is no base64.
+/// Blanks and line breaks at either end are skipped. std::nullopt if the rest is not base64.
 std::optional<std::vector<std::byte>> bytes_of_base64(std::string_view text);
 
 }  // namespace repose::base

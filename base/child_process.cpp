@@ -43,7 +43,7 @@ class OutputHandle {
   OutputHandle& operator=(OutputHandle&&) = delete;
 
   int number() const { return number_; }
-  /// The lock is that of the open file, which child processes share.
+  /// flock belongs to the open file description, which child processes share.
   bool is_locked_by_others() const {
     return ::flock(number_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   }
@@ -59,14 +59,14 @@ void require_spawned(int error) {
 constexpr const char* kMarkName = "REPOSE_STARTED";
 constexpr const char* kMarkVariable = "REPOSE_STARTED=";
 
-/// None of any other process, nor of any time.
+/// Unique across processes and over time.
 std::string new_mark() {
   static std::atomic<int> count = 0;
   return fmt::format("{}.{}.{}", ::getpid(), ++count,
                      std::chrono::steady_clock::now().time_since_epoch().count());
 }
 
-/// This process's environment, with the mark behind those that it has itself.
+/// This process's environment, with the mark appended to those that it already carries.
 std::vector<std::string> marked_environment(const std::string& mark) {
   std::vector<std::string> all;
   std::string marks = kMarkVariable;
@@ -88,7 +88,7 @@ std::vector<char*> pointers_to(std::vector<std::string>& texts) {
   return pointers;
 }
 
-/// Processes in whose environment the mark is, and that may be read.
+/// Processes whose environment is readable and contains the mark.
 std::set<pid_t> marked_processes(const std::string& mark) {
   std::set<pid_t> found;
   std::error_code error;
@@ -137,10 +137,10 @@ void end_with_parent() {
   const std::string_view all = marks;
   const std::string_view last = all.substr(all.rfind(' ') + 1);  // npos + 1 is 0
   const std::string parent = fmt::format("{}.", ::getppid());
-  // What the child has started itself, as a shell, has another parent.
+  // Processes started by the child itself, a shell for example, have another parent.
   if (!last.starts_with(parent)) return;
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  // It may have died before it was asked for.
+  // The parent may have died before the prctl call.
   if (fmt::format("{}.", ::getppid()) != parent) ::raise(SIGTERM);
 }
 
@@ -194,13 +194,13 @@ void ChildProcess::ask_to_end() const { signal_all(SIGTERM); }
 void ChildProcess::kill() const { signal_all(SIGKILL); }
 
 void ChildProcess::signal_all(int signal) const {
-  constexpr int kPasses = 5;  // for those that are started meanwhile
+  constexpr int kPasses = 5;  // to catch processes started meanwhile
   ::kill(-pid_, signal);
   std::set<pid_t> told;
   for (int pass = 0; pass < kPasses; ++pass) {
     bool is_new = false;
     for (const pid_t one : marked_processes(mark_)) {
-      // The group has been told.
+      // The group has already been signalled.
       if (!told.insert(one).second || ::getpgid(one) == pid_) continue;
       ::kill(one, signal);
       is_new = true;
@@ -223,7 +223,7 @@ std::vector<std::string> last_lines(const std::filesystem::path& output, std::si
   file.seekg(std::max(std::streamoff{0}, size - kEnd_bytes));
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) {
-    // A progress bar writes over its line.
+    // A progress bar overwrites its line.
     if (!line.empty() && line.back() == '\r') line.pop_back();
     line.erase(0, line.rfind('\r') + 1);
     if (line.empty()) continue;

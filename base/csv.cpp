@@ -16,7 +16,7 @@ bool is_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Spreadsheets take such a text for a formula and carry it out.
+/// Spreadsheets would evaluate such text as a formula.
 bool is_formula(std::string_view text) {
   constexpr std::string_view kBegins = "=+-@\t\r";
   return !text.empty() && kBegins.find(text.front()) != kBegins.npos && !is_number(text);

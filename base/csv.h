@@ -4,14 +4,13 @@
 #include <string>
 #include <string_view>
 
-/// Tables of comma-separated values, as RFC 4180 has them but for line ends, which are LF.
+/// Tables of comma-separated values (RFC 4180), except that lines end in LF.
 namespace repose::base {
 
-/// Quoted when it must be. What a spreadsheet would take for a formula gets a "'" before it, by
-/// which it is text.
+/// Quoted if necessary. Text that a spreadsheet would interpret as a formula gets a leading "'".
 std::string csv_cell(std::string_view text);
 
-/// The cells with commas between them and the end of the line.
+/// The cells separated by commas, with the line end.
 std::string csv_row(std::span<const std::string> cells);
 
 }  // namespace repose::base

@@ -30,10 +30,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kList = ".repose-files";
 
-/// What a file may hold, by name: while the files are written the old and the new text.
+/// Fingerprints that a file may have, by name: both old and new while the files are being written.
 using Fingerprints = std::map<std::string, std::set<std::string>>;
 
-/// A line each: "FINGERPRINT NAME".
+/// One per line: "FINGERPRINT NAME".
 Fingerprints read_list(const fs::path& folder) {
   Fingerprints list;
   std::istringstream lines(read_file_if_there(folder / kList).value_or(""));
@@ -108,7 +108,7 @@ void write_file_set(const fs::path& folder, const std::vector<NamedText>& files,
   write_list(folder, both);
   for (const NamedText& file : files) write_whole_file(folder / file.name, file.text);
   for (const auto& [name, fingerprints] : earlier) {
-    // What was changed since is the user's now.
+    // Files changed since then now belong to the user.
     if (now.contains(name) || !is_as_listed(folder, name, earlier, Unlisted::users)) continue;
     fs::remove(folder / name);
   }

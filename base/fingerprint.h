@@ -6,8 +6,8 @@
 
 namespace repose::base {
 
-/// A UUID made from the bytes of several texts (RFC 4122, version 5: SHA-1). Where one text ends
-/// and the next begins counts.
+/// A UUID of the bytes of several texts (RFC 4122, version 5: SHA-1). Depends on where one text
+/// ends and the next begins.
 std::string fingerprint(const std::vector<std::string>& texts);
 
 }  // namespace repose::base

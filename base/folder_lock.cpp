@@ -21,7 +21,7 @@ struct flock whole_file() {
   return lock;
 }
 
-/// "process 4711"; on another machine its number says nothing.
+/// "process 4711", or "another process" if it runs on another machine.
 std::string owner_of(int descriptor) {
   struct flock lock = whole_file();
   const bool is_known = ::fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
@@ -39,7 +39,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const std::filesyste
   }
   const struct flock lock = whole_file();
   if (::fcntl(descriptor_, F_SETLK, &lock) == 0) return;
-  if (errno != EACCES && errno != EAGAIN) return;  // a file system that knows no locks
+  if (errno != EACCES && errno != EAGAIN) return;  // a file system without locks
   const std::string owner = owner_of(descriptor_);
   ::close(descriptor_);
   refuse(folder, owner + " is using it", fix);

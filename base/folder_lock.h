@@ -5,13 +5,13 @@
 
 namespace repose::base {
 
-/// An exclusive lock between processes. It ends with the process, however that
-/// ends; the file stays, empty.
+/// An exclusive lock between processes. It is released when the process ends, however that happens;
+/// the empty file stays.
 class FolderLock {
  public:
-  /// @param file  whose lock stands for the folder; it may be deeper in it
-  /// @param fix   what to do when another process has it
-  /// @throws base::InputError  another process has it, which is named.
+  /// @param file  whose lock represents the folder; it may lie in a subfolder
+  /// @param fix   what to do if another process holds it
+  /// @throws base::InputError  another process holds it; the message names it.
   FolderLock(const std::filesystem::path& folder, const std::filesystem::path& file,
              const std::string& fix = "wait until it has finished, or choose another folder.");
   ~FolderLock();
@@ -24,7 +24,7 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// Whether another process has the lock of that file. False where there is no such file.
+/// Whether another process holds the lock of that file. False if there is no such file.
 bool is_locked_by_another(const std::filesystem::path& file);
 
 }  // namespace repose::base

@@ -2,9 +2,9 @@
 
 namespace repose::base {
 
-/// Memory that is freed from now on stays with the process, where the C library can be told so.
-/// Pictures need buffers of a megabyte for a moment: to give each of them back to the system, and
-/// to have it cleared anew, takes a quarter of the time of measuring a silhouette.
+/// From now on the process keeps freed memory, if the C library supports that. Pictures need
+/// short-lived buffers of about a megabyte: returning each to the system, and having it zeroed
+/// again, takes a quarter of the time of measuring a silhouette.
 void disable_heap_trimming();
 
 }  // namespace repose::base

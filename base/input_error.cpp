@@ -6,7 +6,7 @@
 namespace repose::base {
 namespace {
 
-/// Around a field in a text: what a terminal is never sent (base/printable.h).
+/// Delimit a field in a text: control characters that printable() (base/text.h) never lets through.
 constexpr char kFieldBegins = '\x0E', kFieldEnds = '\x0F';
 
 std::string named(std::string_view name, FieldNames names) {
@@ -16,13 +16,13 @@ std::string named(std::string_view name, FieldNames names) {
   return text;
 }
 
-/// Goes on with the sentence.
+/// Continues the sentence.
 void add_words(std::string& text, const std::string& words) {
   if (!text.empty() && !words.empty()) text += ' ';
   text += words;
 }
 
-/// A sentence of its own.
+/// Starts a new sentence.
 void add_sentence(std::string& text, std::string_view heading, const std::string& words) {
   if (words.empty()) return;
   constexpr std::string_view kEnds = ".?:";

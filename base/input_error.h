@@ -12,21 +12,21 @@
 
 namespace repose::base {
 
-/// How a program's user gives a field of an input: the command line's option of it, say.
+/// How the user sets a field of an input: its command-line option, for example.
 struct FieldName {
   std::string_view field;   ///< as libraries call it: "camera pitch"
   std::string_view option;  ///< "--pitch-deg"
 };
 using FieldNames = std::span<const FieldName>;
 
-/// A field that a text advises to give: "choose the " + field("linear model"). In what people read
-/// it becomes "linear model", or "linear model (--model linear)" where names tell its option.
+/// A reference to a field in an error's text: "choose the " + field("linear model"). Users read
+/// "linear model", or "linear model (--model linear)" if `names` has its option.
 std::string field(std::string_view name);
 
-/// The text with each field() in it as people read it.
+/// The text with each field() in it as users read it.
 std::string with_names(std::string_view text, FieldNames names = {});
 
-/// What is wrong with an input. A part that says nothing stays empty.
+/// What is wrong with an input. Parts that do not apply stay empty.
 struct Fault {
   std::string where = {};    ///< the file, row, field or thing: "sheet.csv:12"
   std::string subject = {};  ///< the field: "heap.plate_m", "camera pitch"
@@ -38,21 +38,21 @@ struct Fault {
   std::string text(FieldNames names = {}) const;
 };
 
-/// A line for each.
+/// One line each.
 std::string text_of(const std::vector<Fault>& faults, FieldNames names = {});
 
-/// An input cannot be used; what() has a line for each fault. All else that is thrown is a fault
-/// of the program or of the machine.
+/// An input cannot be used; what() has one line per error. Any other exception is a bug in the
+/// program or a failure of the machine.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(Fault fault) : InputError(std::vector<Fault>{std::move(fault)}) {}
-  /// A list by its name only: the braces of a Fault are none.
+  /// A template so that a braced Fault is never converted to a list.
   template <std::same_as<std::vector<Fault>> List>
   explicit InputError(List faults)
       : std::runtime_error(text_of(faults)), faults_(std::move(faults)) {}
 
   const std::vector<Fault>& faults() const { return faults_; }
-  /// The same faults, of something that is in `where`.
+  /// The same errors, with their location inside `where`.
   InputError in(const std::string& where) const;
 
  private:
@@ -62,14 +62,14 @@ class InputError : public std::runtime_error {
 /// "FILE: what. Fix: ...": errors of measuring a file do not name it, those of reading it do.
 std::string naming_file(const std::string& file, const std::string& error);
 
-/// Collects what is wrong with an input, to say all of it at once.
+/// Collects the errors of an input, to report all of them at once.
 class Faults {
  public:
-  /// Of more than `most`, those after the first `most` are only counted: a table may have a million
-  /// rows with the same fault.
+  /// After the first `most`, errors are only counted: a table may have a million rows with the same
+  /// one.
   explicit Faults(std::size_t most = std::numeric_limits<std::size_t>::max()) : most_(most) {}
 
-  /// Notes the fault unless the rule holds.
+  /// Adds the error unless the rule holds.
   void require(bool holds, Fault fault) {
     if (!holds) add(std::move(fault));
   }
@@ -82,10 +82,10 @@ class Faults {
 
   bool empty() const { return count_ == 0; }
 
-  /// Those that are listed, and how many are not.
+  /// Those that are listed, and the number of those that are not.
   std::vector<Fault> all() const;
 
-  /// @throws InputError  with all of them, where there are some.
+  /// @throws InputError  with all of them, if there are any.
   void throw_if_any() const {
     if (!empty()) throw InputError(all());
   }

@@ -3,14 +3,14 @@
 #include <exception>
 #include <string>
 
-/// What is said where the memory does not suffice: an input too large for the machine, or for the
-/// limit that somebody set (`ulimit -v`), is no fault of the program.
+/// Out-of-memory messages: an input too large for the machine, or for a limit such as `ulimit -v`,
+/// is not a bug in the program.
 namespace repose::base {
 
-/// Also as OpenCV says it.
+/// Also recognises OpenCV's error.
 bool is_out_of_memory(const std::exception& error);
 
-/// "WHAT: there is not enough memory. Fix: FIX, or ...".
+/// "WHAT: not enough memory. Fix: FIX, or ...".
 std::string no_memory(const std::string& what, const std::string& fix);
 
 }  // namespace repose::base

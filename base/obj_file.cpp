@@ -18,7 +18,7 @@ namespace repose::base {
 
 namespace {
 
-/// All of a word as a number.
+/// The whole word as a number.
 template <typename Number>
 bool read(std::string_view word, Number& number) {
   if (word.starts_with('+')) word.remove_prefix(1);
@@ -58,7 +58,7 @@ class ObjReader {
     return line;
   }
 
-  /// A backslash at its end continues a line on the next one.
+  /// A backslash at the end continues the line on the next one.
   std::string_view take_line() {
     std::string_view line = take_physical_line();
     if (!line.ends_with('\\')) return line;
@@ -69,7 +69,7 @@ class ObjReader {
     return joined_;
   }
 
-  /// What may follow, a weight or colours, says nothing of the place.
+  /// A weight or colours may follow; they do not affect the position.
   void read_corner(std::string_view line) {
     Corner& corner = surface_.corners.emplace_back();
     for (double& coordinate : corner) {
@@ -80,7 +80,7 @@ class ObjReader {
     }
   }
 
-  /// "7", "7/2" or "7//4": only the first number is of a corner; below 0 it counts back from here.
+  /// "7", "7/2" or "7//4": only the first number is a vertex; a negative one counts back from here.
   void read_face(std::string_view line) {
     std::vector<int> face;
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
@@ -98,7 +98,7 @@ class ObjReader {
     lines_of_faces_.push_back(line_);
   }
 
-  /// A face may stand before its corners.
+  /// A face may precede its vertices.
   void check_faces() const {
     const auto corners = static_cast<int>(surface_.corners.size());
     for (std::size_t i = 0; i < surface_.faces.size(); ++i) {

@@ -103,7 +103,7 @@ class HeaderReader {
     constexpr std::size_t kLongest = 4096;
     ++line_;
     const std::size_t end = rest_.find('\n');
-    if (end > kLongest) {  // also where there is none
+    if (end > kLongest) {  // also if there is none
       wrong("the header is truncated, or this is not a PLY file");
     }
     std::string line(rest_.substr(0, end));
@@ -159,7 +159,7 @@ class HeaderReader {
   int line_ = 0;
 };
 
-/// Takes numbers out of what follows the header, and never more than there are.
+/// Takes numbers from the data after the header, and never reads past the end.
 class Body {
  public:
   Body(std::string_view bytes, Format format) : rest_(bytes), format_(format) {}
@@ -187,7 +187,7 @@ class Body {
     return take_bytes<double>(where);
   }
 
-  /// A whole number from 0 on.
+  /// A whole number, 0 or more.
   std::int64_t take_whole(Type type, const std::string& where) {
     const double number = take(type, where);
     if (!(number >= 0 && number <= std::numeric_limits<std::int32_t>::max()) ||
@@ -228,7 +228,7 @@ class Body {
   Format format_;
 };
 
-/// Where in the list of corners a property belongs: 0 to 2 for x to z.
+/// The coordinate that a property is: 0 to 2 for x to z; std::nullopt if it is none.
 std::optional<std::size_t> axis_of(const Element& element, const Property& property) {
   if (element.name != "vertex" || property.length || property.name.size() != 1) return std::nullopt;
   const std::size_t axis = std::string_view("xyz").find(property.name);

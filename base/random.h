@@ -5,8 +5,8 @@
 
 namespace repose::base {
 
-/// Random numbers that are the same everywhere: the standard fixes the engine, and the mapping is
-/// ours (that of std::uniform_real_distribution is not fixed).
+/// Random numbers that are the same on every platform: the standard fixes the engine, and the
+/// mapping is ours (std::uniform_real_distribution's is not fixed).
 class Random {
  public:
   /// Skips `draws` numbers, to resume a stream.

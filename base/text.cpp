@@ -92,9 +92,9 @@ std::string printable(std::string_view text) {
 
 namespace {
 
-/// Levenshtein's distance: letters to insert, remove or replace.
+/// Levenshtein distance: characters to insert, remove or replace.
 std::size_t distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);  // distances of from's beginning to to's beginnings
+  std::vector<std::size_t> row(to.size() + 1);  // from a prefix of `from` to those of `to`
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < from.size(); ++i) {
     std::size_t diagonal = row[0];

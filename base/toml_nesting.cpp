@@ -7,8 +7,8 @@
 namespace repose::base {
 namespace {
 
-/// Where the quoted text ends that begins at `start`: at its closing quotation mark, or, of a text
-/// on one line that has none, where the line ends.
+/// End of the quoted text that begins at `start`: its closing quotation mark, or the end of the
+/// line if a single-line text has none.
 std::size_t end_of_quoted(std::string_view text, std::size_t start) {
   const char mark = text[start];
   const std::string triple(3, mark);
@@ -26,7 +26,7 @@ std::size_t end_of_quoted(std::string_view text, std::size_t start) {
   return text.size();
 }
 
-/// Part of a key between two points, or blanks beside one.
+/// Part of a key between two dots, or a blank beside one.
 bool is_of_key(char letter) {
   return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_' || letter == '-' ||
          letter == ' ' || letter == '\t';

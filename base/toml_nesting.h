@@ -5,12 +5,12 @@
 
 namespace repose::base {
 
-/// Points in one key, a.b.c: no file of ours needs more, and each is a table within a table, which
-/// the parser of TOML and all that reads its result walk through by calling themselves.
+/// Dots in one key, a.b.c: none of our files needs more, and each is a nested table, which the TOML
+/// parser and everything that reads its result process recursively.
 inline constexpr int kMaxPointsInAKey = 8;
 
-/// The first line of a TOML text with a key of more points than that; none when there is no such
-/// key. The text need not be TOML.
+/// The first line of a TOML text that has a key with more dots than that; std::nullopt if there is
+/// none. The text need not be valid TOML.
 std::optional<int> line_of_deep_key(std::string_view text);
 
 }  // namespace repose::base

@@ -4,7 +4,7 @@
 
 namespace repose {
 
-/// In radians: what an angle in degrees is multiplied by.
+/// One degree in radians.
 inline constexpr double kDegree = std::numbers::pi / 180;
 
 inline double to_degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }

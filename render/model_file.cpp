@@ -18,18 +18,19 @@ namespace {
 
 using dem::Vector;
 
-/// Of a grain's extent: spheres look round, and files of many-sided clumps stay small.
+/// As a fraction of a grain's extent: spheres look round, and files of clumps with many spheres
+/// stay small.
 constexpr double kSphereTolerance = 0.002;
 constexpr double kModelSlab =
-    3;  ///< half the side of what stands for a plane, in radii of the grains
+    3;  ///< half the side of the slab that stands for a plane / radius of a ball around all grains
 constexpr double kWholeSide_m = 1e9;
 
-/// z up to y up.
+/// From z up to y up.
 const aiMatrix4x4 kTurn(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
 
 enum Material : unsigned { surface_material, sphere_material, wall_material, material_count };
 
-/// What the library's scene owns it deletes itself.
+/// The library's scene deletes the meshes that it owns.
 aiMesh* library_mesh(const Surface& surface, const std::string& name, Material material) {
   constexpr std::size_t kFloats = 6;
   const std::size_t vertices = surface.vertices.size() / kFloats;
@@ -68,7 +69,7 @@ aiMaterial* library_material(const char* name, const aiColor4D& colour, float me
   return material;
 }
 
-/// Meshes and the nodes that place them, until they become the library's.
+/// Meshes and the nodes that place them, until the library's scene takes ownership.
 class Assembly {
  public:
   unsigned add_mesh(const Surface& surface, const std::string& name, Material material) {

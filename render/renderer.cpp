@@ -68,7 +68,7 @@ class Renderer::Studio {
     const auto& photo = std::get<PhotoStyle>(style);
     check(photo);
     const Stage stage = hand_.set(scene, view, photo.shown, photo.seed);
-    // Most users never take a photo: its shaders are compiled when one is asked for.
+    // Most users never take a photo: its shaders are compiled on demand.
     if (!photo_) photo_ = std::make_unique<PhotoPainter>(gl_);
     return {.picture = tone_mapped(photo_->paint(scene, view, {stage}, photo), photo),
             .grain_mask = mask_.paint(view, stage)};

@@ -13,18 +13,18 @@ namespace repose::render {
 
 struct Rendered {
   vision::Picture picture;
-  /// A byte a pixel, rows from the top: 255 where the pixel's middle shows a grain, else 0.
+  /// One byte per pixel, rows from the top: 255 if the pixel's centre shows a grain, else 0.
   std::vector<std::uint8_t> grain_mask;
 };
 
-/// Draws scenes off the screen, on the processor.
+/// Renders scenes off-screen, on the CPU.
 ///
-/// Same scene, camera, size and style: same bytes, at any number of threads of the driver, on the
-/// same kind of processor. (Another one may round differently: some edge pixels change.) Use one
-/// object in one thread at a time; several objects in several threads are fine.
+/// The same scene, camera, size and style give the same bytes on the same kind of CPU, whatever the
+/// driver's number of threads. (Another CPU may round differently: some edge pixels change.) Use
+/// one object in one thread at a time; several objects in several threads are fine.
 class Renderer {
  public:
-  /// @throws std::runtime_error  the machine's OSMesa cannot draw.
+  /// @throws std::runtime_error  no off-screen OpenGL context is available.
   Renderer();
   ~Renderer();
   Renderer(const Renderer&) = delete;
@@ -32,14 +32,14 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// @throws base::InputError  the picture cannot be taken: its size, the camera's numbers, a
-  /// camera inside the heap, a scene without grains.
+  /// @throws base::InputError  invalid picture size or camera parameters, a camera inside the heap,
+  /// a scene without grains.
   Rendered draw(const Scene& scene, const Camera& camera, const PictureSize& size,
                 const Style& style);
 
   /// A photo of grains that move while it is exposed.
-  /// @param moments  of one scene, evenly spread over the exposure, with one setting; at least one,
-  ///   and no more than the style's passes are seen
+  /// @param moments  of one scene, evenly spread over the exposure, with the same setting; at least
+  ///   one; at most as many as the style has passes are used
   /// @throws base::InputError  as draw(), or without moments.
   vision::Picture expose(const std::vector<Scene>& moments, const Camera& camera,
                          const PictureSize& size, const PhotoStyle& style);

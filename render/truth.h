@@ -10,19 +10,19 @@
 
 namespace repose::render {
 
-/// What is known exactly about a picture. Lengths in pixels as in vision/picture/picture.h.
+/// Exact ground truth of a picture. Lengths in pixels as in vision/picture/picture.h.
 struct Truth {
   Camera camera;
   PictureSize size;
-  double mm_per_px = 0;  ///< in the upright plane through the grains' middle that faces the camera
-  /// Where the ground meets that plane, over the picture's width; bent by the lens in between. None
-  /// when nothing level is below the grains.
+  double mm_per_px = 0;  ///< in the vertical plane through the grains' middle that faces the camera
+  /// Where the ground meets that plane, across the picture's width; curved by the lens in between.
+  /// std::nullopt if nothing level is below the grains or it is out of view.
   std::optional<vision::Segment> ground;
-  /// Upper edge of all grains in the middle of each pixel column that has any, left to right.
+  /// Upper edge of all grains at the centre of each pixel column that has any, left to right.
   std::vector<vision::Point> outline;
 };
 
-/// The outline is that of whole meshes and exact spheres: it does not depend on how they are drawn.
+/// The outline is that of full meshes and exact spheres, independent of how they are drawn.
 Truth truth_of(const Scene& scene, const Camera& camera, const PictureSize& size, Shown shown);
 
 }  // namespace repose::render

@@ -20,7 +20,7 @@ bool is_same(std::string_view one, std::string_view other) {
   return difference == 0;
 }
 
-/// The value of a cookie in "a=1; b=2"; empty: it is not there.
+/// The value of a cookie in "a=1; b=2"; empty if absent.
 std::string_view cookie_in(std::string_view cookies, std::string_view name) {
   while (!cookies.empty()) {
     const std::size_t end = cookies.find(';');

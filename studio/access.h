@@ -3,37 +3,36 @@
 #include <string>
 #include <string_view>
 
-/// Who may talk to the studio: the person who started it, from a page of its own.
+/// Access control: only the user who started the studio, from its own page.
 namespace repose::studio {
 
-/// 128 random bits of the system's, as hexadecimal digits. Whoever has it may do all that the page
-/// can do.
-/// @throws std::system_error  the system has none.
+/// 128 random bits from the system as hexadecimal digits. Whoever has them can do everything the
+/// page can.
+/// @throws std::system_error  the system provides none.
 std::string new_token();
 
-/// What a request says of where it comes from; empty: it does not say.
+/// Where a request claims to come from; empty if not given.
 struct Caller {
   std::string_view host;    ///< the address it was sent to
-  std::string_view origin;  ///< the page that sent it
+  std::string_view origin;  ///< origin of the page that sent it
   std::string_view query_token;
   std::string_view cookies;
 };
 
-/// Whether a request is taken, and if not, why.
+/// Decides whether a request is accepted, and if not, why.
 ///
-/// The server listens to this machine alone; what is left are pages of others in the same browser.
-/// A name of theirs that they let lead to this machine (DNS rebinding) is refused by `host`, their
-/// forms and scripts by `origin` (RFC 6454), all else by the token, which they do not know. It is
-/// compared in a time that does not depend on how much of it is right.
-/// Proved by Access.* in tests/studio/access_test.cpp.
+/// The server listens on this machine only, which leaves other sites' pages in the same browser.
+/// Host names that they point at this machine (DNS rebinding) are refused by `host`, their forms
+/// and scripts by `origin` (RFC 6454), everything else by the token, which they do not know. The
+/// token is compared in constant time. Proved by Access.* in tests/studio/access_test.cpp.
 class Access {
  public:
   Access(std::string token, int port);
 
-  /// Empty: it is taken.
+  /// The reason for refusal; empty if accepted.
   std::string refusal(const Caller& caller) const;
-  /// Of a cookie that lets the browser show the page's pictures; one for each port, for cookies
-  /// know no ports.
+  /// Set-Cookie value that lets the browser load the page's pictures; one name per port, since
+  /// cookies are not separated by port.
   std::string cookie() const;
   const std::string& token() const { return token_; }
 

@@ -11,7 +11,7 @@
 #include "studio/http.h"
 #include "studio/json_answer.h"
 
-/// How requests are read and answered, whatever they are about.
+/// Helpers for reading and answering any request.
 namespace repose::studio {
 
 inline void refuse(httplib::Response& response, int status, const std::string& why) {
@@ -19,7 +19,7 @@ inline void refuse(httplib::Response& response, int status, const std::string& w
   response.set_content(text_of({{"error", why}}), kJson);
 }
 
-/// What a request names; faults of it are the caller's.
+/// The file that a request names; the caller checks it.
 inline std::string file_in(const httplib::Request& request) {
   return request.get_param_value("file");
 }
@@ -44,7 +44,7 @@ inline Json json_in(const httplib::Request& request) {
   return json;
 }
 
-/// Faults of what was asked for become its answer.
+/// Errors in the request become its answer.
 template <typename Answer>
 httplib::Server::Handler answering(const Answer& answer) {
   return [answer](const httplib::Request& request, httplib::Response& response) {

@@ -15,8 +15,8 @@ std::string value_in(const Request& request, const char* name) {
   return request.get_param_value(name);
 }
 
-/// The report's own scripts stand in it; it may show itself and hand out its figures, and ask
-/// nobody for anything: the page's key is of no use to it.
+/// The report contains its own scripts; it may display itself and offer its figures for download,
+/// but make no requests: it cannot use the page's token.
 constexpr const char* kReportRules =
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; "
     "style-src 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
@@ -30,14 +30,14 @@ void send_report(Response& response, const std::string& html) {
 
 }  // namespace
 
-/// All with study=NAME but the first; answers are Calibrations':
+/// All but the first with study=NAME; answered by Calibrations:
 ///
 /// GET /api/tasks                             tasks()
 /// POST, DELETE /api/tasks?task=NAME          start() with amount=TEXT, stop()
 /// GET /api/calibration                       state()
 /// POST /api/export?to=NAME&approximate=1     exported()
 /// GET /files/report                          report()
-/// GET /files/calibration?name=NAME           file(), to be saved
+/// GET /files/calibration?name=NAME           file() as a download
 void serve_calibrations(httplib::Server& http, Calibrations& calibrations) {
   http.Get("/api/tasks", json_of([&](const Request&) { return calibrations.tasks(); }));
   http.Post("/api/tasks", json_of([&](const Request& request) {

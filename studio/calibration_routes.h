@@ -5,8 +5,7 @@
 
 namespace repose::studio {
 
-/// What the page asks of calibrations. What an address gives is said in calibration_routes.cpp
-/// beside it.
+/// The page's requests about calibrations. Routes are documented in calibration_routes.cpp.
 void serve_calibrations(httplib::Server& http, Calibrations& calibrations);
 
 }  // namespace repose::studio

@@ -15,7 +15,7 @@
 #include "calibrate/study/study_record.h"
 #include "studio/calibrations.h"
 
-// What a calibration's folder says of it.
+// The state of a calibration, read from its folder.
 
 namespace repose::studio {
 
@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kReportFile = "report.html";
 
-/// What a file holds; null: it is not there, or no JSON.
+/// A file's content; null if it does not exist or is not JSON.
 Json json_in_file(const fs::path& file) {
   try {
     const auto text = base::read_file_if_there(file);
@@ -46,7 +46,7 @@ int runs_in(const fs::path& folder) {
   return runs;
 }
 
-/// Of result.json what the page shows; the report has all of it.
+/// The parts of result.json that the page shows; the report has all of it.
 Json result_json(const Json& result) {
   Json shown{{"verdict", result.value("verdict", Json(nullptr))},
              {"parameters", Json::array()},
@@ -67,7 +67,7 @@ Json result_json(const Json& result) {
   return shown;
 }
 
-/// Names, with their folders, of what a folder has for a person, in it and not by links.
+/// Adds the files in a folder that are meant for the user, with their path; links are ignored.
 void add_files(const fs::path& folder, const fs::path& within, const char* ending, Json& files) {
   std::error_code error;
   std::vector<fs::path> found;
@@ -101,13 +101,13 @@ Json files_in(const fs::path& folder) {
   return files;
 }
 
-/// Null where there is none, or a provisional one: the report shows that.
+/// Null if there is none or only a provisional one, which the report shows.
 Json final_result_in(const fs::path& folder) {
   Json result = json_in_file(folder / calibrate::kResultFile);
   return result.is_object() && result.contains("provisional") ? Json(nullptr) : result;
 }
 
-/// Of an existing result, whether it is of the study as it is now.
+/// Whether an existing result belongs to the study in its current form.
 bool is_current(const StudyFolder& studies, const std::string& study, const fs::path& folder) {
   const auto text = base::read_file_if_there(folder / calibrate::kResultFile);
   const auto identity = text ? calibrate::study_in_result(*text) : std::nullopt;
@@ -132,7 +132,7 @@ Json Calibrations::state(const std::string& study) const {
   const bool is_locked = base::is_locked_by_another(calibrate::lock_file_in(folder));
   const Json result = is_inside ? final_result_in(folder) : Json(nullptr);
   const int runs = is_inside ? runs_in(folder) : 0;
-  // A plan leaves runs there, too; a calibration says first whose they are.
+  // A plan leaves runs there too; a calibration first records which study they belong to.
   std::error_code ignored;
   const bool is_begun = is_inside && fs::exists(folder / calibrate::kNotesFile, ignored);
   std::string state = is_begun ? "unfinished" : "none";

@@ -30,7 +30,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kTasksFile = ".repose-studio.tasks";
-constexpr std::size_t kLines = 30;      // of what a program printed
+constexpr std::size_t kLines = 30;      // of a program's output
 constexpr std::size_t kMostEnded = 50;  // tasks that are remembered
 constexpr std::size_t kMostWaiting = 50;
 constexpr std::chrono::milliseconds kLook{100};
@@ -43,7 +43,7 @@ std::string command_of(const std::vector<std::string>& words) {
   return line;
 }
 
-/// What a program said to a person: without its name before each line.
+/// A program's messages, without its name before each line.
 std::vector<std::string> said_in(const fs::path& output) {
   constexpr std::string_view kName = "repose: ";
   std::vector<std::string> lines = base::last_lines(output, kLines);
@@ -53,7 +53,7 @@ std::vector<std::string> said_in(const fs::path& output) {
   return lines;
 }
 
-/// As an argument: no name is taken for an option.
+/// As an argument, so that no name is mistaken for an option.
 std::string argument_of(const std::string& study) {
   return study.starts_with('-') ? "./" + study : study;
 }
@@ -64,14 +64,14 @@ struct Calibrations::Task {
   std::string study;
   std::string name;
   std::string amount;
-  std::vector<std::string> words;  ///< as a person would type them
+  std::vector<std::string> words;  ///< as a user would type them
   std::vector<std::string> extra;  ///< for this page
   fs::path output;
   fs::path estimate;         ///< of an estimate
-  bool is_given_up = false;  ///< a person has stopped it
-  bool is_taken_up = false;  ///< of an earlier studio
+  bool is_given_up = false;  ///< the user has stopped it
+  bool is_taken_up = false;  ///< resumed from an earlier studio
   std::string state = "waiting";
-  std::string end;                 ///< how it ended, where that was not good
+  std::string end;                 ///< how it ended, if abnormally
   std::vector<std::string> lines;  ///< once it has ended
   Clock::time_point since = Clock::now();
   double seconds = 0;  ///< once it has ended
@@ -110,7 +110,7 @@ void Calibrations::work() {
     lock.unlock();
     carry_out(task);
     lock.lock();
-    // The next studio goes on with what has ended because this one does.
+    // The next studio resumes tasks that were stopped because this one is ending.
     if (is_ending_ && task->state == "stopped" && !task->is_given_up) return;
     open_.pop_front();
     write_down();
@@ -119,7 +119,7 @@ void Calibrations::work() {
   }
 }
 
-/// Until the program has ended, by itself or as it was asked to.
+/// Returns when the program has ended, on its own or on request.
 void Calibrations::carry_out(const std::shared_ptr<Task>& task) {
   std::vector<std::string> words = {program_.string()};
   words.insert(words.end(), task->words.begin(), task->words.end());
@@ -232,7 +232,7 @@ void Calibrations::open(const std::shared_ptr<Task>& task) {
     task->estimate = temporary_ / fmt::format("{}.json", number);
     task->extra = {"--json", task->estimate.string()};
   } else {
-    // For what it writes there before its own work begins.
+    // The program writes there before its own work begins.
     const fs::path folder = studies_.calibration_of(task->study);
     std::error_code error;
     fs::create_directories(folder, error);
@@ -266,7 +266,7 @@ void Calibrations::write_down() const {
   try {
     base::write_whole_file(studies_.folder() / kTasksFile, text_of(tasks));
   } catch (const base::InputError&) {
-    // On a full disk tasks are carried out, too; the next studio does not know of them.
+    // On a full disk tasks still run; the next studio will not know of them.
   }
 }
 
@@ -283,14 +283,14 @@ void Calibrations::take_up() {
       task->is_taken_up = true;
       open(task);
     } catch (const base::InputError&) {
-      // Its study has gone.
+      // Its study no longer exists.
     } catch (const Json::exception&) {
-      // Not what a studio writes.
+      // Not written by a studio.
     }
   }
 }
 
-/// What an earlier studio that was killed has started ends by itself, after the run at hand.
+/// Waits for a program of a killed studio, which ends by itself after its current run.
 void Calibrations::wait_for_earlier(const Task& task) {
   if (!task.is_taken_up) return;
   const fs::path lock_file = calibrate::lock_file_in(studies_.calibration_of(task.study));

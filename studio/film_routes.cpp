@@ -22,13 +22,13 @@ void send_jpeg(Response& response, const FilmTracks::Bytes& bytes) {
 
 }  // namespace
 
-/// Answers are FilmTracks', the last one StudyFolder's:
+/// Answered by FilmTracks, the last one by StudyFolder:
 ///
 /// GET /api/film?file=NAME                        film()
 /// GET /api/film/frame?file=NAME&number=N         frame()
-/// POST /api/film/track?file=NAME                 track() as is sent
+/// POST /api/film/track?file=NAME                 track() with the body
 /// GET /api/film/overlay?number=N                 overlay()
-/// POST /api/film/readings?number=N&study=NAME    add_readings() of readings() as is sent
+/// POST /api/film/readings?number=N&study=NAME    add_readings() of readings() with the body
 void serve_films(httplib::Server& http, FilmTracks& films, StudyFolder& studies) {
   http.Get("/api/film",
            json_of([&](const Request& request) { return films.film(file_in(request)); }));

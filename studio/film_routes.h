@@ -6,7 +6,7 @@
 
 namespace repose::studio {
 
-/// What the page asks of films. What an address gives is said in film_routes.cpp beside it.
+/// The page's requests about films. Routes are documented in film_routes.cpp.
 void serve_films(httplib::Server& http, FilmTracks& films, StudyFolder& studies);
 
 }  // namespace repose::studio

@@ -49,9 +49,9 @@ vision::Filmed filmed_in(const Json& asked) {
                           .rule = "drop, roll or tilt"});
 }
 
-/// How far up the incline a grain was let go, where that is said.
+/// How far up the incline a grain was released, if given.
 std::optional<double> released_in(const Json& asked) {
-  constexpr double kShortest_mm = 1, kLongest_mm = 10000;  // as `repose track` has them
+  constexpr double kShortest_mm = 1, kLongest_mm = 10000;  // as in `repose track`
   const auto said = asked.find("released_mm");
   if (said == asked.end() || said->is_null()) return std::nullopt;
   if (said->is_number() && *said >= kShortest_mm && *said <= kLongest_mm)
@@ -65,7 +65,7 @@ calibrate::FilmTracking tracking_of(const fs::path& film, const Json& asked) {
   if (!asked.is_object())
     throw base::InputError({.value = "what was said of the film is no object"});
   calibrate::FilmTracking tracking{.film = {film}, .filmed = filmed_in(asked)};
-  // Angles need neither.
+  // Angles need neither scale nor release.
   if (tracking.filmed == vision::Filmed::tilt) return tracking;
   tracking.scale = with_told({}, {{"scale", asked.value("scale", Json())},
                                   {"board", asked.value("board", Json())}})
@@ -90,7 +90,7 @@ std::shared_ptr<const FilmTracks::Frames> FilmTracks::frames_of(const std::strin
   constexpr std::size_t kMost = 2;
   const fs::path path = film_named(pictures_, file);
   const std::string version = pictures_.version_of(file);
-  // Whoever asks for a second frame meanwhile waits for all of them.
+  // Requests for a second frame wait until all frames are decoded.
   const std::lock_guard lock(decoding_);
   const auto known = std::ranges::find_if(
       frames_, [&](const auto& one) { return one->file == file && one->version == version; });

@@ -10,34 +10,33 @@
 
 namespace repose::studio {
 
-/// Films of drops, rolls and tilts: looked at frame by frame, and tracked as `repose track` tracks
-/// them. Some of what was found is kept, for its pictures and its readings. Several threads may ask
-/// at once.
-/// All of it throws base::InputError for a name or a number that is not there.
+/// Films of drops, rolls and tilts: shown frame by frame, and tracked like `repose track`. Some
+/// results are kept for their pictures and readings. Thread-safe. All members throw
+/// base::InputError for an unknown name or number.
 class FilmTracks {
  public:
   using Bytes = PictureFolder::Bytes;
 
   explicit FilmTracks(const PictureFolder& pictures) : pictures_(pictures) {}
 
-  /// `width`, `height`, and `times_s` of the frames that can be looked at.
+  /// `width`, `height`, and `times_s` of the available frames.
   Json film(const std::string& file);
   /// A JPEG of one of them, reduced.
   Bytes frame(const std::string& file, int number);
 
-  /// @param asked  `experiment` (drop, roll or tilt), `scale` and `board` as told_json.h has them,
-  ///   `released_mm` of a roll
-  /// @returns  `number` of what was found, `tracked` as `repose track --json` has it, `command`
+  /// @param asked  `experiment` (drop, roll or tilt), `scale` and `board` as in told_json.h,
+  ///   `released_mm` for a roll
+  /// @returns  `number` of the result, `tracked` as in `repose track --json`, `command`
   Json track(const std::string& file, const Json& asked);
-  /// A JPEG of the strobe picture with what was tracked, as `repose track --overlay` draws it.
+  /// A JPEG of the strobe picture with the track, as drawn by `repose track --overlay`.
   Bytes overlay(int number);
 
-  /// What a study's sheet is given of a film.
+  /// A film's readings for a study's sheet.
   struct Readings {
     std::string experiment;
-    std::string csv;  ///< as `repose track --csv` has it
+    std::string csv;  ///< as written by `repose track --csv`
   };
-  /// @param asked  of a drop, the numbers of the `bounces` that count
+  /// @param asked  for a drop, the numbers of the `bounces` to use
   Readings readings(int number, const Json& asked);
 
  private:
@@ -50,7 +49,7 @@ class FilmTracks {
   const PictureFolder& pictures_;
   std::mutex decoding_;
   std::mutex mutex_;
-  std::list<std::shared_ptr<const Frames>> frames_;    ///< looked at last, the latest first
+  std::list<std::shared_ptr<const Frames>> frames_;    ///< most recently used first
   std::list<std::shared_ptr<const Tracked>> tracked_;  ///< likewise
   int last_number_ = 0;
 };

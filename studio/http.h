@@ -2,5 +2,5 @@
 
 #include <httplib.h>
 
-// A macro of <resolv.h>, which the line above brings in, and a name in Eigen.
+// A macro of <resolv.h>, included by the line above; also a name in Eigen.
 #undef _res

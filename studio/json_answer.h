@@ -6,7 +6,7 @@
 
 #include "base/input_error.h"
 
-/// What the page is answered, whatever it asked.
+/// JSON answers to the page.
 namespace repose::studio {
 
 using Json = nlohmann::ordered_json;
@@ -18,7 +18,7 @@ inline std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// What was changed elsewhere since its version was looked at, and is not written over.
+/// Something was changed elsewhere since the page read it, and is not overwritten.
 class ChangedMeanwhile : public base::InputError {
   using base::InputError::InputError;
 };

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What faults and advice call what can be told: the page's tools.
+/// Names of hints in errors and advice: the page's tools.
 constexpr std::array<base::FieldName, 9> kTools{
     {{"excluded box", "Leave out"},
      {"camera pitch", "Camera pitch"},
@@ -55,7 +55,7 @@ bool is_photograph(const fs::path& file) {
   return vision::has_film_ending(file) || vision::has_picture_ending(file);
 }
 
-/// Changes with the file: its size and the time of its last change; "" where there is none.
+/// Changes with the file: its size and modification time; "" if there is none.
 std::string state_of(const fs::path& file) {
   std::error_code error;
   const auto size = fs::file_size(file, error);
@@ -69,13 +69,13 @@ std::string file_version(const fs::path& file) {
 }
 
 std::vector<fs::path> files_of(const fs::path& folder) {
-  // Files alone: a folder without any is none that is wrong.
+  // Only the files: an empty folder is not an error here.
   return vision::list_heap_files({folder.string()}).files;
 }
 
 }  // namespace
 
-/// What is known of a file in one version.
+/// Cached results for one version of a file.
 struct PictureFolder::Kept {
   std::mutex mutex;
   std::string version;
@@ -89,7 +89,7 @@ PictureFolder::PictureFolder(fs::path folder) : folder_(std::move(folder)) {
   if (!fs::is_directory(folder_, ignored)) {
     base::refuse(folder_, "there is no such folder", "name the folder with your pictures.");
   }
-  // Where nothing can be written, nothing can be written over.
+  // A read-only folder needs no lock: nothing can be overwritten.
   if (::access(folder_.c_str(), W_OK) != 0) return;
   lock_.emplace(folder_, folder_ / kLockFile,
                 "open the address that the other repose studio has printed, or end that with "
@@ -145,7 +145,8 @@ void PictureFolder::require_unchanged(const fs::path& path, const std::string& v
 PictureFolder::Opened PictureFolder::opened(const fs::path& path, const std::string& version,
                                             const vision::PictureSettings& told) {
   constexpr std::size_t kMost = 4;
-  // What is told of a film says which of its frames are of a heap at rest.
+  // The version belongs to the key: a film's hints determine which of its frames show the heap at
+  // rest.
   const std::string key = path.string() + '\n' + version;
   {
     const std::lock_guard lock(mutex_);
@@ -164,7 +165,7 @@ PictureFolder::Opened PictureFolder::opened(const fs::path& path, const std::str
 
 namespace {
 
-/// What the page is told of a photograph.
+/// The page's data about a photograph.
 Json answer_of(const calibrate::MeasuredAgain& again, const std::string& version) {
   const calibrate::MeasuredPicture& measured = again.measured;
   Json answer{{"version", version},
@@ -179,7 +180,7 @@ Json answer_of(const calibrate::MeasuredAgain& again, const std::string& version
   return answer;
 }
 
-/// Of a scan or a file of particles, of which nothing can be told here.
+/// The same for a scan or a particle file, which take no hints here.
 Json answer_of(const calibrate::MeasuredPicture& measured, const std::string& version) {
   return {{"version", version},
           {"measured", calibrate::measured_json(measured)},
@@ -295,7 +296,7 @@ vision::PictureSettings PictureFolder::settings_of(const fs::path& path, const s
   const vision::PictureSettings saved = vision::with_saved_hints({}, path);
   vision::PictureSettings settings = with_told(saved, told);
   vision::Hints& hints = settings.measuring.hints;
-  // A saved mask lies on the picture as it was turned then.
+  // A saved mask matches the picture as it was turned then.
   constexpr int kFull_deg = 360;
   const int turn_deg = hints.turn_deg - saved.measuring.hints.turn_deg + kFull_deg;
   hints.mask = vision::turned(std::move(hints.mask), turn_deg % kFull_deg);
@@ -332,7 +333,7 @@ PictureFolder::Bytes PictureFolder::picture(const std::string& file, int side_px
     return kept->measured.overlay.bytes;
   }
   const vision::PictureSettings told = vision::with_saved_hints({}, path);
-  // Marks lie where the lens's distortion is taken out.
+  // Marks refer to the picture without the lens's distortion.
   if (told.scale.lens)
     return vision::jpeg_of(vision::reduced(again(file).picture, side_px), kQuality);
   const Opened picture = opened(path, file_version(path), told);

@@ -18,60 +18,60 @@
 
 namespace repose::studio {
 
-/// The pictures, films, scans and files of particles of one folder, measured when somebody looks at
-/// them. What was measured is kept until its file, or what is saved beside it, changes. Several
-/// threads may ask at once.
+/// The pictures, films, scans and particle files of one folder, measured on demand. Results are
+/// cached until the file, or what is saved beside it, changes. Thread-safe.
 ///
-/// Files are known by their names in the folder: no other name leads anywhere.
-/// All of it throws base::InputError for a name that is not there.
+/// Files are identified by their names in the folder: no other path is accepted. All members throw
+/// base::InputError for an unknown name.
 ///
-/// The folder is one studio's: another that is started on it is refused, which FolderLock does.
+/// A FolderLock reserves the folder for one studio: another one started on it is refused.
 class PictureFolder {
  public:
   using Bytes = std::vector<std::uint8_t>;
 
-  /// @throws base::InputError  it is no folder, or another studio has it.
+  /// @throws base::InputError  not a folder, or another studio has it.
   explicit PictureFolder(std::filesystem::path folder);
 
   /// `folder`, its `name`, `definitions` of the angle [{`name`, `description`}], the `command` that
   /// measures all, and `files` [{`file`, `kind`, `version`, `has_hints`}]; the version changes with
-  /// the file and with what is saved beside it. Copies and subfolders are not looked for.
+  /// the file and with what is saved beside it. Copies are not detected, subfolders not searched.
   Json list() const;
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// The file of that name in the folder; no other name leads anywhere.
+  /// The file of that name in the folder; no other path is accepted.
   std::filesystem::path path_of(const std::string& file) const;
-  /// Its version, as list() has it.
+  /// Its version, as in list().
   std::string version_of(const std::string& file) const;
 
-  /// As `repose measure --json` has it, in `measured`; with `version`, `told`, `marks`
-  /// (told_json.h), `command` and, of a refused picture, `proposed`, what the proposal would make
-  /// of `told`. As text, which is kept: of a thousand pictures the outlines are long.
+  /// `measured`, as in `repose measure --json`, with `version`, `told`, `marks` (told_json.h),
+  /// `command` and, for a refused picture, `proposed`: `told` with the proposal applied. Cached as
+  /// text: the outlines of a thousand pictures are large.
   std::string measured(const std::string& file);
-  /// The same by what the page tells, which is not saved. Nothing is proposed.
+  /// The same with the page's hints, which are not saved. Nothing is proposed.
   Json measured_as(const std::string& file, const Json& told);
-  /// Saves what the page tells beside the file, and measures by it. Window and definition are not
-  /// of one picture, and are not saved.
-  /// @param version  that was corrected
-  /// @throws ChangedMeanwhile  it is not that any more.
+  /// Saves the page's hints beside the file, and measures with them. Window and definition do not
+  /// belong to one picture, and are not saved.
+  /// @param version  on which the hints are based
+  /// @throws ChangedMeanwhile  it has changed since.
   std::string save(const std::string& file, const Json& told, const std::string& version);
-  /// Removes what is saved beside the file, and measures without it. Likewise.
+  /// Removes what is saved beside the file, and measures without it; throws like save().
   std::string forget(const std::string& file, const std::string& version);
 
-  /// A JPEG of the picture as it is measured when turned so, its longer side at most so long.
+  /// A JPEG of the picture as measured when turned by `turn_deg`, its longer side at most
+  /// `side_px`.
   Bytes picture(const std::string& file, int side_px, int turn_deg);
-  /// A JPEG with what was measured drawn in, as `repose measure --overlay` draws it.
+  /// A JPEG with the result drawn in, as by `repose measure --overlay`.
   Bytes overlay(const std::string& file);
-  /// A PNG of what is saved as painted over the picture: white is heap, black is not, grey is open.
+  /// A PNG of the mask saved for the picture: white is heap, black is not, grey is undecided.
   Bytes mask(const std::string& file);
 
-  /// Puts a file into the folder, under another name where its own is taken; none is replaced.
+  /// Puts a file into the folder, under another name if its own is taken; none is replaced.
   /// @returns the name
-  /// @throws base::InputError  it cannot be written, or its name is not one of a picture, a film or
-  ///   a scan.
+  /// @throws base::InputError  it cannot be written, or its name is not that of a picture, a film
+  ///   or a scan.
   std::string add(const std::string& name, std::string_view content);
 
-  /// All files as repeats, as `repose measure --summary` has it.
+  /// All files as repeats, as in `repose measure --summary`.
   std::string set();
   std::string csv();
   std::string workbook();
@@ -85,7 +85,7 @@ class PictureFolder {
   std::shared_ptr<Kept> kept(const std::filesystem::path& path);
   Opened opened(const std::filesystem::path& path, const std::string& version,
                 const vision::PictureSettings& told);
-  /// What is told, with what is painted in its mask.
+  /// The page's hints, with the painted strokes in the mask.
   vision::PictureSettings settings_of(const std::filesystem::path& path, const std::string& version,
                                       const Json& told);
   calibrate::MeasuredAgain again(const std::string& file);
@@ -96,7 +96,7 @@ class PictureFolder {
   std::mutex saving_;
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Kept>> kept_;
-  /// Those that were looked at last, the latest first; some, for pictures are large.
+  /// The most recently used, latest first; only a few, since pictures are large.
   std::list<std::pair<std::string, Opened>> opened_;
 };
 

@@ -74,7 +74,7 @@ struct Server::Parts {
   void serve_comparisons();
 };
 
-/// Nobody is answered but the page; and no page of others can hold this one, or read what it loads.
+/// Answers only the page; other sites' pages can neither embed it nor read what it loads.
 void Server::Parts::guard() {
   http.set_pre_routing_handler([this](const Request& request, Response& response) {
     response.set_header("X-Content-Type-Options", "nosniff");
@@ -98,7 +98,7 @@ void Server::Parts::guard() {
     return httplib::Server::HandlerResponse::Handled;
   });
   http.set_payload_max_length(kLargestUpload_bytes);
-  // A browser keeps six connections open for each of its pages, with a thread for each.
+  // A browser keeps up to six connections open per page, each of which occupies a thread.
   http.new_task_queue = [] { return new httplib::ThreadPool(32); };
   http.set_keep_alive_timeout(2);
   http.set_error_handler([](const Request&, Response& response) {
@@ -120,9 +120,9 @@ void Server::Parts::guard() {
   });
 }
 
-/// GET /            the page; it leaves a cookie, so that it can be loaded again
-/// GET /studio.js   its parts
-/// GET /studio.css
+/// GET /            the page; sets a cookie, so that it can be reloaded
+/// GET /studio.js   its script
+/// GET /studio.css  its style sheet
 void Server::Parts::serve_page() {
   http.Get("/", [this](const Request&, Response& response) {
     response.set_header("Set-Cookie", access->cookie());
@@ -139,15 +139,15 @@ void Server::Parts::serve_page() {
   });
 }
 
-/// All with ?file=NAME, but the first two; answers are PictureFolder's:
+/// All but the first two with ?file=NAME; answered by PictureFolder:
 ///
 /// GET /api/folder      list()
 /// GET /api/set         set()
 /// GET /api/measured    measured()
-/// POST /api/measure    measured_as() what is sent
-/// PUT /api/hints       save() what is sent; &version=
+/// POST /api/measure    measured_as() with the body
+/// PUT /api/hints       save() with the body; &version=
 /// DELETE /api/hints    forget(); &version=
-/// POST /api/file       add() what is sent, under that name
+/// POST /api/file       add() the body under that name
 void Server::Parts::serve_pictures() {
   http.Get("/api/folder", json_of([this](const Request&) {
              Json json = pictures.list();
@@ -202,9 +202,10 @@ void Server::Parts::serve_files() {
            }));
 }
 
-/// GET /api/sets                                 folders(), and what is compared where nothing is
-/// said POST /api/comparison                          compare() what is sent GET
-/// /files/comparison.png?number=N&width=PX   figure() GET /files/comparison.json?number=N json()
+/// GET /api/sets                                 folders()
+/// POST /api/comparison                          compare() with the body
+/// GET /files/comparison.png?number=N&width=PX   figure()
+/// GET /files/comparison.json?number=N           json()
 void Server::Parts::serve_comparisons() {
   constexpr int kMost = 1 << 30;
   http.Get("/api/sets", json_of([this](const Request&) { return comparisons.folders(); }));
@@ -226,8 +227,8 @@ void Server::Parts::serve_comparisons() {
 
 Server::Server(const StudioOptions& options) : parts_(std::make_unique<Parts>(options)) {
   Parts& parts = *parts_;
-  // A port that another studio listens at is taken, which SO_REUSEPORT, the library's choice,
-  // denies.
+  // Not SO_REUSEPORT, the library's default: it would allow binding a port that another studio is
+  // using.
   parts.http.set_socket_options([](int socket) {
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);

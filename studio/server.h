@@ -8,15 +8,15 @@ namespace repose::studio {
 
 struct StudioOptions {
   std::filesystem::path folder;
-  int port = 0;                        ///< 0: one that is free
-  std::filesystem::path program = {};  ///< that calibrates; empty: nothing is started
+  int port = 0;                        ///< 0: any free port
+  std::filesystem::path program = {};  ///< for calibrations; empty: none can be started
 };
 
-/// The page and what it asks for, over HTTP, for this machine alone. What an address gives is said
-/// in server.cpp beside it; who is answered, in access.h.
+/// Serves the page and its requests over HTTP, on this machine only. Routes are documented in
+/// server.cpp; for access control see access.h.
 class Server {
  public:
-  /// Takes the port.
+  /// Binds the port.
   /// @throws base::InputError  there is no such folder, or the port is taken.
   explicit Server(const StudioOptions& options);
   ~Server();
@@ -27,7 +27,7 @@ class Server {
 
   /// "http://127.0.0.1:PORT/?token=..."
   const std::string& address() const;
-  /// Answers until stop(), which any thread may call.
+  /// Serves until stop(), which any thread may call.
   void run();
   void stop();
 

@@ -25,7 +25,7 @@ namespace {
 
 using calibrate::HeapSource;
 
-/// A folder within another that holds heaps; none: there are none in it.
+/// The heaps in a folder; std::nullopt if there are none.
 std::optional<HeapSource> heaps_in(const fs::path& folder) {
   std::vector<std::string> errors;
   HeapSource source = calibrate::heap_sources({folder.string(), folder.string()}, errors).front();
@@ -55,7 +55,7 @@ double margin_of(const Json& asked) {
       {.where = "margin_deg", .value = "is " + margin.dump(), .rule = "a number of degrees"});
 }
 
-/// Copies the chosen files, with what is saved beside each, into a folder that stands for them.
+/// A command that copies the chosen files and their hints into a folder for the set.
 std::string copying(const HeapSource& source) {
   std::string command = fmt::format("mkdir -p {0} && cp", source.name);
   for (const fs::path& file : source.files) {

@@ -10,22 +10,22 @@
 
 namespace repose::studio {
 
-/// Sets of heaps compared as `repose compare` compares them: files of the studio's folder that a
-/// person has chosen, and folders in it. Some of them are kept, for their figures. Several threads
-/// may ask at once.
-/// All of it throws base::InputError for a name or a number that is not there.
+/// Sets of heaps compared as by `repose compare`: files that the user chose in the studio's folder,
+/// and folders in it. Some results are kept for their figures. Thread-safe. All members throw
+/// base::InputError for an unknown name or number.
 class SetComparisons {
  public:
   explicit SetComparisons(const PictureFolder& pictures) : pictures_(pictures) {}
 
-  /// `folders` within the studio's that hold heaps [{`folder`, `kind`, `heaps`}], and `margin_deg`.
+  /// `folders` within the studio's that contain heaps [{`folder`, `kind`, `heaps`}], and the
+  /// default `margin_deg`.
   Json folders() const;
 
   /// @param asked  `first` and `second`, each {`folder`} or {`files`}, and `margin_deg`
-  /// @returns `number`, the `comparison` as `repose compare --json` has it, `has_figure`, `notes`,
-  ///   and the `command` that does the same
+  /// @returns `number`, the `comparison` as in `repose compare --json`, `has_figure`, `notes`, and
+  ///   the equivalent `command`
   Json compare(const Json& asked);
-  /// As `repose compare --overlay` draws it, as PNG.
+  /// As drawn by `repose compare --overlay`, as PNG.
   PictureFolder::Bytes figure(int number, int width_px) const;
   std::string json(int number) const;
 

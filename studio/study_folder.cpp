@@ -30,8 +30,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestStudy_bytes = std::uintmax_t{1} << 20;
 
-/// A study has one of its sections; camera files and hints of pictures, which end likewise, have
-/// none of them.
+/// A study has one of these sections; camera files and hint files, with the same ending, have none.
 bool is_study(const fs::path& file) {
   std::error_code ignored;
   const std::string name = file.filename().string();
@@ -44,7 +43,7 @@ bool is_study(const fs::path& file) {
   try {
     text = '\n' + base::read_whole_file(file, kLargestStudy_bytes);
   } catch (const base::InputError&) {
-    return false;  // not ours to read
+    return false;  // not readable by us
   }
   return std::ranges::any_of(
       std::array{"\n[particle", "\n[experiment", "\n[study", "\n[parameter"},
@@ -62,7 +61,7 @@ std::vector<fs::path> studies_in(const fs::path& folder) {
   return files;
 }
 
-/// Of faults of files in the folder, which the page names as they are called in it.
+/// Texts of errors, with the names of files in the folder relative to it.
 Json texts_of(const std::vector<base::Fault>& faults, const fs::path& folder) {
   const std::string prefix = (folder / "").string();
   Json texts = Json::array();
@@ -76,7 +75,7 @@ Json texts_of(const std::vector<base::Fault>& faults, const fs::path& folder) {
   return texts;
 }
 
-/// What is known of a study without simulating.
+/// What can be determined about a study without simulating.
 struct Looked {
   std::optional<dem::Study> study;
   std::vector<base::Fault> faults;
@@ -101,7 +100,7 @@ Looked look_at(const fs::path& file, const std::vector<std::string>& settings = 
   return looked;
 }
 
-/// Of a study of somebody's own runs.
+/// For a study of the user's own runs.
 Json table_study_json(const fs::path& file) {
   Json json{{"study", file.filename().string()}, {"title", file.stem().string()}};
   json["is_table"] = true;
@@ -118,7 +117,7 @@ Json head_json(const fs::path& file, const Looked& looked) {
           {"faults", texts_of(looked.faults, file.parent_path())}};
 }
 
-/// The keys of a protocol as its experiment's entry has them.
+/// The keys of a protocol, from its experiment's entry.
 Json keys_json(const dem::ExperimentEntry& entry, dem::Protocol protocol) {
   Json keys = Json::array();
   for (const dem::ProtocolKey& key : entry.keys(protocol)) {
@@ -133,7 +132,7 @@ Json keys_json(const dem::ExperimentEntry& entry, dem::Protocol protocol) {
   return keys;
 }
 
-/// How an experiment was measured, where that is no sheet.
+/// How an experiment was measured.
 std::string measured_text(const dem::Measured& measured) {
   if (measured.sheet) return "sheet";
   if (!measured.pictures.empty()) return "pictures";
@@ -143,7 +142,7 @@ std::string measured_text(const dem::Measured& measured) {
   return "nothing";
 }
 
-/// `usual` is what the study says of the bench, which every row repeats.
+/// `usual` is the study's value for the bench, which every row repeats.
 Json columns_json(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
                   const std::vector<std::string>& present) {
   const calibrate::BenchTest test = calibrate::bench_test_named(entry.sheet.test);
@@ -176,7 +175,7 @@ Json columns_json(const dem::ExperimentEntry& entry, const dem::Protocol& protoc
   return columns;
 }
 
-/// The sheet's cells in the order of its columns: those that it needs, then what else it has.
+/// The sheet's cells in the order of its columns: those that are needed, then any others.
 Json cells_json(const calibrate::Table& table, const Json& columns) {
   Json rows = Json::array();
   for (const calibrate::TableRow& row : table.rows) {
@@ -189,7 +188,7 @@ Json cells_json(const calibrate::Table& table, const Json& columns) {
   return rows;
 }
 
-/// What a page fills in. Its lines are those that the file will have.
+/// The table filled in on the page, with the line numbers that the file will have.
 calibrate::Table table_of(const std::string& name, const Json& cells) {
   constexpr std::size_t kMostRows = 10'000, kMostColumns = 100, kLongestCell = 1000;
   calibrate::Table table{.name = name, .columns = {}, .rows = {}};
@@ -219,7 +218,7 @@ calibrate::Table table_of(const std::string& name, const Json& cells) {
   return table;
 }
 
-/// A row at fault: "drops.csv:4" names the fourth line, of which the header is the first.
+/// The row of an error: "drops.csv:4" is the fourth line, where the header is the first.
 std::optional<std::size_t> row_of(const base::Fault& fault, std::size_t rows) {
   const std::size_t colon = fault.where.rfind(':');
   if (colon == std::string::npos) return std::nullopt;
@@ -231,7 +230,7 @@ std::optional<std::size_t> row_of(const base::Fault& fault, std::size_t rows) {
   return row < rows ? std::optional(row) : std::nullopt;
 }
 
-/// The column that a fault is of: the one that it names first.
+/// The column that an error concerns: the one that it names first.
 std::optional<std::size_t> column_of(const base::Fault& fault,
                                      const std::vector<std::string>& columns) {
   const std::string text = fault.subject + ' ' + fault.value;
@@ -372,7 +371,7 @@ Json StudyFolder::checked_sheet(const std::string& name, const std::string& expe
   Json faults = Json::array(), notes = Json::array();
   int readings = 0;
   try {
-    // As it will be read from the file.
+    // Exactly as it will be read from the file.
     const auto given = calibrate::readings_of_table(
         *sheet.entry, sheet.described, sheet.name(),
         calibrate::parse_table(table.name, csv_text(table), calibrate::NoRows::allowed),
@@ -401,7 +400,7 @@ void require_version(const Json& sent, const std::string& text, const std::strin
 
 namespace {
 
-/// What a test reads of a table, in the table's order.
+/// The columns of a table that a test reads, in the table's order.
 std::vector<std::string> columns_read(const calibrate::BenchTest& test,
                                       const calibrate::Table& table) {
   std::vector<std::string> read{std::string(calibrate::kSampleColumn)};
@@ -414,15 +413,15 @@ std::vector<std::string> columns_read(const calibrate::BenchTest& test,
   return columns;
 }
 
-/// The cells of that column; none where there is none.
+/// The row's cell in that column; empty if there is no such column.
 std::string cell_of(const calibrate::Table& table, const calibrate::TableRow& row,
                     std::string_view column) {
   const auto place = table.column(column);
   return place ? row.cells[*place] : std::string();
 }
 
-/// Rows that were typed have heights that were read in air, and settings that were set: columns
-/// that a film brings say so from now on.
+/// In columns that a film adds, existing rows get the values of typed readings: heights read in
+/// air, settings exact.
 void add_column(calibrate::Table& table, const std::string& name) {
   const bool is_name = name == calibrate::kSampleColumn;
   if (table.columns.size() == 1) table.delimiter = ',';

@@ -9,51 +9,49 @@
 
 namespace repose::studio {
 
-/// The studies of one folder, and the sheets of readings that they name, as the page shows them and
-/// has them filled in. Everything is read from the files when somebody asks, and checked by what
-/// the command line checks it by. Several threads may ask at once.
+/// The studies of one folder and their sheets of readings, for the page to show and fill in.
+/// Everything is read from the files on demand, and checked as by the command line. Thread-safe.
 ///
-/// Studies are known by their names in the folder: no other name leads anywhere, and of what a
-/// study names nothing outside the folder is shown or written. All of it throws base::InputError
-/// for a name that is not there.
+/// Studies are identified by their names in the folder: no other path is accepted, and files
+/// outside the folder that a study names are neither shown nor written. All members throw
+/// base::InputError for an unknown name.
 class StudyFolder {
  public:
   explicit StudyFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// @throws base::InputError  there is no such study.
+  /// @throws base::InputError  unknown study.
   std::filesystem::path path_of(const std::string& name) const;
-  /// Where it is calibrated.
+  /// Its calibration's folder.
   std::filesystem::path calibration_of(const std::string& name) const;
 
   /// `studies`, [{`study`, `title`, `is_table`, `faults`}].
   Json list() const;
-  /// `study`, `title`, `is_table`, `faults`, `hash`, `version`, `notes`, `sought` [{`name`, `min`,
-  /// `max`}], `experiments` [{`experiment`, `description`, `value_name`, `unit`, `keys`,
-  /// `measured`, `sheet`}]; of a study at fault nothing but the first four.
+  /// `study`, `title`, `is_table`, `faults`, `hash`, `version`, `notes`, `sought` (see
+  /// sought_json()), `experiments` [{`experiment`, `description`, `value_name`, `unit`, `keys`,
+  /// `measured`, `sheet`}]; for an unreadable study, only the first four.
   Json study(const std::string& name) const;
 
-  /// What a sheet's cells, {`columns`, `rows`}, would give: `faults` [{`row`, `column`, `text`}],
-  /// both null where it is not of a cell, `notes`, `readings`.
+  /// Checks a sheet's cells, {`columns`, `rows`}: `faults` [{`row`, `column`, `text`}], row and
+  /// column null if it does not concern a cell, `notes`, number of `readings`.
   Json checked_sheet(const std::string& name, const std::string& experiment,
                      const Json& cells) const;
-  /// The same, and writes it; `version` says which one was filled in.
-  /// @throws base::InputError  the file is of another version by now, or cannot be written.
+  /// The same, and writes it; `version` is the one that was filled in.
+  /// @throws base::InputError  the file has changed since, or cannot be written.
   Json save_sheet(const std::string& name, const std::string& experiment, const Json& cells);
 
-  /// Puts rows of a table that a film gave below the sheet's own; those of the same sample are
-  /// replaced. Columns that the sheet's test reads and the sheet lacks are added. Answers the
-  /// `sheet`'s name, how many `rows` were added, and `notes`.
-  /// @throws base::InputError  the study names no sheet, the sheet would be at fault, as with
-  ///   another height of fall than the study's, or it cannot be written: nothing is.
+  /// Appends the rows of a film's table to the sheet; existing rows of the same sample are
+  /// replaced. Columns that the sheet's test reads and the sheet lacks are added. Returns the
+  /// `sheet`'s name, the number of `rows` added, and `notes`.
+  /// @throws base::InputError  the study names no sheet, the sheet would be invalid (for example a
+  ///   different drop height than the study's), or it cannot be written; nothing is written then.
   Json add_readings(const std::string& name, const std::string& experiment, const std::string& csv);
 
-  /// What `numbers` of the protocols, {"experiment.drop": {"height_mm": "500"}}, would be: `faults`
-  /// [{`key`, `text`}], the key null where it is of none of them. An empty text takes a key out.
-  /// Likewise of the coefficients that are sought: {"contact.particle_wall.restitution": {"max":
-  /// "0.8"}}.
+  /// Checks `numbers` of the protocols, {"experiment.drop": {"height_mm": "500"}}: `faults`
+  /// [{`key`, `text`}], the key null if it concerns none of them. An empty text removes a key.
+  /// Likewise for free coefficients: {"contact.particle_wall.restitution": {"max": "0.8"}}.
   Json checked_numbers(const std::string& name, const Json& numbers) const;
-  /// The same, and writes them; as save_sheet().
+  /// The same, and writes them if there are no faults; throws like save_sheet().
   Json save_numbers(const std::string& name, const Json& numbers);
 
  private:
@@ -64,25 +62,25 @@ class StudyFolder {
   std::mutex saving_;
 };
 
-/// What is asked for a new study: `grains`, `plates`, `parts`, `experiments`, each with what it
-/// says unless it is said otherwise.
+/// The choices for a new study: `grains`, `plates`, `parts`, `experiments` with their properties,
+/// and the defaults `usual_grain` and `usual_plate`.
 Json new_study_form();
 
-/// What a study of which that was said would be: `command`, `faults` [{`field`, `text`}], `title`,
-/// `assumed`, `sheets`, `coefficients`, `usual`.
+/// Preview of the study that a filled-in form describes: `command`, `faults` [{`field`, `text`}],
+/// `title`, `assumed`, `warning`, `sheets`, `usual`.
 Json drafted_study(const std::filesystem::path& folder, const Json& said);
 
-/// Writes it as `repose new` does. @returns  the same, and `study`, its name
-/// @throws base::InputError  there is a fault, or it cannot be written.
+/// Writes it like `repose new`. @returns  the same, and `study`, its name
+/// @throws base::InputError  there is an error, or it cannot be written.
 Json start_study(const std::filesystem::path& folder, const Json& said);
 
-/// @throws base::InputError  what was sent is not made from this text: its `version` is another.
+/// @throws base::InputError  `sent` is not based on this text: its `version` differs.
 void require_version(const Json& sent, const std::string& text, const std::string& name);
 
-/// The coefficients that a study seeks: [{`name`, `value`, `min`, `max`}]; no value: null.
+/// A study's free coefficients: [{`name`, `value`, `min`, `max`}]; `value` is null if not set.
 Json sought_json(const dem::Study& study);
 
-/// Whether a file is in a folder, once links are followed.
+/// Whether a file is in a folder, after resolving links.
 bool is_within(const std::filesystem::path& file, const std::filesystem::path& folder);
 
 }  // namespace repose::studio

@@ -16,7 +16,7 @@
 namespace repose::studio {
 namespace {
 
-/// "Fix:" advises what the page has a field for, and no option of the command line.
+/// Advice names the page's fields, not command-line options.
 std::string text_of(const base::Fault& fault) { return base::with_names(fault.text()); }
 
 Json bounds_json(const calibrate::ContactBounds& bounds) {
@@ -26,7 +26,7 @@ Json bounds_json(const calibrate::ContactBounds& bounds) {
           {"rolling_friction", range(bounds.rolling_friction)}};
 }
 
-/// Reads what was said; what is no text or number becomes a fault of its field.
+/// Reads the form; what is not a text or number becomes an error of its field.
 class Said {
  public:
   Said(const Json& json, base::Faults& faults) : json_(json), faults_(faults) {}
@@ -36,7 +36,7 @@ class Said {
     return found != json_.end() && found->is_string() ? found->get<std::string>() : std::string();
   }
 
-  /// A cell of the form, with a decimal point or comma; none where nothing is in it.
+  /// A cell of the form, with a decimal point or comma; std::nullopt if it is empty.
   std::optional<double> number(const std::string& text, const char* field) const {
     if (text.find_first_not_of(' ') == std::string::npos) return std::nullopt;
     const auto value = calibrate::number_of(text);
@@ -46,7 +46,7 @@ class Said {
     return value;
   }
 
-  /// Several, of which all or none are given.
+  /// Several numbers, of which all or none must be given.
   template <std::size_t count>
   std::optional<std::array<double, count>> numbers(const char* key, const char* field) const {
     const std::vector<std::string> texts = this->texts(key);
@@ -83,7 +83,7 @@ class Said {
   base::Faults& faults_;
 };
 
-/// A name in the folder: no path leads out of it.
+/// A name in the folder; paths out of it are refused.
 std::string name_in(const Said& said, base::Faults& faults) {
   std::string name = said.text("study");
   const bool is_plain = !name.empty() && name.front() != '.' && name.front() != '-' &&
@@ -96,7 +96,7 @@ std::string name_in(const Said& said, base::Faults& faults) {
   return name.ends_with(".toml") ? name : name + ".toml";
 }
 
-/// A draft, and what it is made of.
+/// A draft and its description for the page.
 struct Draft {
   std::string name;
   calibrate::RequestedStudy made;
@@ -112,7 +112,7 @@ Json sheets_json(const calibrate::NewStudy& study) {
   return sheets;
 }
 
-/// What stands where nothing is said, for the form's fields.
+/// Defaults of the form's fields.
 Json usual_json(calibrate::NewRequest request) {
   request.grain_mm.reset();
   request.density_kg_m3.reset();

@@ -21,13 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is to become of a study's numbers, and what is wrong with them.
+/// Changes to a study's numbers, and their errors.
 struct Numbers {
   std::vector<dem::NumberEdit> edits;
   Json faults = Json::array();
 };
 
-/// Of a protocol, or of a coefficient that is sought.
+/// Whether a protocol or a free coefficient has the key.
 bool has_key(const dem::Study& study, const std::string& table, const std::string& key) {
   const Json sought = sought_json(study);
   const auto is_sought = [&](const Json& one) {
@@ -43,7 +43,7 @@ bool has_key(const dem::Study& study, const std::string& table, const std::strin
   });
 }
 
-/// Only numbers, and keys that the study's experiments have.
+/// Accepts only numbers, and keys that the study has.
 Numbers numbers_in(const Json& json, const dem::Study& study) {
   Numbers numbers;
   const auto tables = json.find("numbers");
@@ -70,7 +70,7 @@ Numbers numbers_in(const Json& json, const dem::Study& study) {
   return numbers;
 }
 
-/// The key that a fault is of; null: none of them.
+/// The key that an error concerns; null if none of them.
 Json key_of(const base::Fault& fault, const std::vector<dem::NumberEdit>& edits) {
   const std::string text = fault.subject + ' ' + fault.value;
   for (const dem::NumberEdit& edit : edits) {
@@ -83,7 +83,7 @@ Json key_of(const base::Fault& fault, const std::vector<dem::NumberEdit>& edits)
   return nullptr;
 }
 
-/// A changed study before it is in its place: beside it, where what it names is found.
+/// A changed study before it is put in place: written beside it, where relative file names resolve.
 struct Changed {
   explicit Changed(const fs::path& file) : part(base::part_of(file)) {}
 
@@ -125,7 +125,7 @@ Json StudyFolder::save_numbers(const std::string& name, const Json& numbers) {
   const std::string before = base::read_whole_file(file);
   require_version(numbers, before, name);
   const Changed changed = changed_study(file, before, numbers);
-  // A study that cannot be read could not be shown, or corrected here, any more.
+  // An unreadable study could no longer be shown or corrected here.
   if (changed.faults.empty()) base::put_in_place(*changed.part, file);
   return {{"faults", changed.faults}, {"saved", changed.faults.empty()}};
 }

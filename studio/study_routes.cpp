@@ -15,15 +15,15 @@ std::string experiment_in(const httplib::Request& request) {
 
 }  // namespace
 
-/// Answers are StudyFolder's:
+/// Answered by StudyFolder:
 ///
 /// GET /api/studies                    list()
-/// POST /api/studies                   start_study() what is sent
+/// POST /api/studies                   start_study() with the body
 /// GET /api/new                        new_study_form()
-/// POST /api/new                       drafted_study() of what is sent
+/// POST /api/new                       drafted_study() with the body
 /// GET /api/study?study=NAME           study()
-/// POST, PUT /api/sheet?study=NAME&experiment=NAME   checked_sheet(), save_sheet() what is sent
-/// POST, PUT /api/numbers?study=NAME   checked_numbers(), save_numbers() what is sent
+/// POST, PUT /api/sheet?study=NAME&experiment=NAME   checked_sheet(), save_sheet() with the body
+/// POST, PUT /api/numbers?study=NAME   checked_numbers(), save_numbers() with the body
 void serve_studies(httplib::Server& http, StudyFolder& studies) {
   using httplib::Request;
   http.Get("/api/studies", json_of([&studies](const Request&) { return studies.list(); }));

@@ -5,8 +5,7 @@
 
 namespace repose::studio {
 
-/// What the page asks of studies and their sheets. What an address gives is said in
-/// study_routes.cpp beside it.
+/// The page's requests about studies and their sheets. Routes are documented in study_routes.cpp.
 void serve_studies(httplib::Server& http, StudyFolder& studies);
 
 }  // namespace repose::studio

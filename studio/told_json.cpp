@@ -16,14 +16,14 @@
 namespace repose::studio {
 namespace {
 
-/// Reads one value; each fault of it names its key.
+/// Reads values; each error names its key.
 class Reader {
  public:
   Reader(const Json& json, base::Faults& faults) : json_(json), faults_(faults) {}
 
   bool has(const char* key) const { return json_.contains(key) && !json_.at(key).is_null(); }
 
-  /// @param count  how many numbers it has to be
+  /// @param count  how many numbers are required
   std::optional<std::vector<double>> numbers(const char* key, std::size_t count,
                                              const char* rule) const {
     if (!has(key)) return std::nullopt;
@@ -209,7 +209,7 @@ vision::PictureSettings with_told(vision::PictureSettings settings, const Json& 
 
 namespace {
 
-/// None: it is no stroke; faults of its path are noted.
+/// std::nullopt if it is not a stroke; errors in its path are collected.
 std::optional<vision::BrushStroke> stroke_of(const Json& json, base::Faults& faults) {
   using Says = vision::BrushStroke::Says;
   static const std::map<std::string, Says> kSays{

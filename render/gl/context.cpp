@@ -9,7 +9,7 @@
 namespace repose::render::gl {
 namespace {
 
-/// OSMesa wants a picture of its own; everything is drawn to framebuffer objects instead.
+/// Side of the buffer that OSMesa requires; everything is drawn to framebuffer objects instead.
 constexpr int kSide = 16;
 
 constexpr const char* kFix =

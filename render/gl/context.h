@@ -6,13 +6,13 @@
 
 namespace repose::render::gl {
 
-/// OpenGL 3.3 core, drawn by the processor into memory: no window, no screen, no graphics card.
+/// OpenGL 3.3 core, rendered by the CPU into memory: no window, no screen, no graphics card.
 ///
-/// The one place that knows which library does it: OSMesa (context.cpp), or EGL where there is no
+/// The only place that knows which library does it: OSMesa (context.cpp), or EGL if there is no
 /// OSMesa (context_egl.cpp).
 class Context {
  public:
-  /// @throws std::runtime_error  the driver gives no such context.
+  /// @throws std::runtime_error  the driver provides no such context.
   Context();
   ~Context();
   Context(const Context&) = delete;
@@ -20,10 +20,9 @@ class Context {
   Context(Context&&) = delete;
   Context& operator=(Context&&) = delete;
 
-  /// What the calling thread draws goes here from now on. A context belongs to one thread at a
-  /// time.
+  /// Makes the context current in the calling thread. It belongs to one thread at a time.
   const Functions& use();
-  /// The calling thread draws nowhere.
+  /// The calling thread has no current context afterwards.
   void release();
 
  private:

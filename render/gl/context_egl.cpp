@@ -1,5 +1,5 @@
-// The context where there is no OSMesa, which Mesa 25.1 and newer do not have any more: EGL without
-// a surface, on the device that is no graphics card, so that pictures are the same on all machines.
+// The context without OSMesa, which Mesa 25.1 and newer no longer have: surfaceless EGL on the
+// software device rather than a graphics card, so that pictures are the same on all machines.
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -32,7 +32,7 @@ bool is_software(EGLDeviceEXT device) {
          std::string(extensions).find("EGL_MESA_device_software") != std::string::npos;
 }
 
-/// Of all contexts; EGL ends it with the program.
+/// Shared by all contexts; EGL terminates it when the program ends.
 EGLDisplay software_display() {
   constexpr EGLint kMaxDevices = 32;
   const auto query =
@@ -85,7 +85,7 @@ Context::Context() : library_(std::make_unique<Library>()) {
 Context::~Context() { eglDestroyContext(library_->display, library_->context); }
 
 const Functions& Context::use() {
-  eglBindAPI(EGL_OPENGL_API);  // is the thread's own
+  eglBindAPI(EGL_OPENGL_API);  // is per thread
   if (eglMakeCurrent(library_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, library_->context) ==
       EGL_FALSE) {
     throw std::runtime_error(std::string("render: EGL's context cannot be used") + kFix);

@@ -2,7 +2,7 @@
 
 #include <GL/glcorearb.h>
 
-/// The OpenGL functions that are used: name, and the type of its pointer.
+/// The OpenGL functions that are used: name and pointer type.
 #define REPOSE_GL_FUNCTIONS(X)                                 \
   X(ActiveTexture, PFNGLACTIVETEXTUREPROC)                     \
   X(AttachShader, PFNGLATTACHSHADERPROC)                       \

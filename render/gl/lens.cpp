@@ -4,7 +4,7 @@
 
 namespace repose::render {
 
-// A picture's first row is OpenGL's lowest: y down is kept, and turning directions are swapped.
+// A picture's first row is OpenGL's lowest: y stays downwards, and winding order is reversed.
 const std::string& lens_source() {
   static const std::string source = R"(#version 330 core
 uniform mat3 axes;           // right, down, into the picture
@@ -41,7 +41,7 @@ vec4 in_picture(vec3 point) {
 }
 
 DepthRange depth_range(const View& view, const Stage& stage) {
-  constexpr double kFar = 200;  // in radii of the grains: backdrops and slabs
+  constexpr double kFar = 200;  // in units of Stage::radius_m: backdrops and slabs
   if (!view.is_perspective) return {-kFar * stage.radius_m, kFar * stage.radius_m};
   constexpr double kNear = 1e-3;
   const double depth = view.in_camera(stage.origin).norm();

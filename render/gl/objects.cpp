@@ -53,7 +53,7 @@ Layout layout_of(PixelFormat format) {
   return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
 }
 
-/// Attributes `first`, ... of a buffer that is bound, `parts` floats each.
+/// Sets attributes `first`, ... of the bound buffer, with `parts` floats each.
 void lay_out(const Functions& gl, GLuint first, const std::vector<int>& parts, GLuint divisor) {
   const int floats = std::accumulate(parts.begin(), parts.end(), 0);
   std::size_t offset = 0;

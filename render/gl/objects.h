@@ -10,15 +10,15 @@
 
 #include "render/gl/functions.h"
 
-/// Things that live in the driver, each owned by an object here. The context that made them must be
-/// in use when they go.
+/// OpenGL objects, each owned by an object here. The context that created them must be current when
+/// they are destroyed.
 namespace repose::render::gl {
 
 /// A vertex and a fragment shader, linked.
 class Program {
  public:
-  /// Attribute k of a vertex is the k-th name.
-  /// @throws std::runtime_error  with the driver's words when it does not compile.
+  /// The k-th name is that of vertex attribute k.
+  /// @throws std::runtime_error  with the driver's message if it does not compile.
   Program(const Functions& gl, const std::string& vertex, const std::string& fragment,
           const std::vector<const char*>& attributes);
   ~Program() { gl_.DeleteProgram(id_); }
@@ -28,7 +28,7 @@ class Program {
   Program& operator=(Program&&) = delete;
 
   void use() const { gl_.UseProgram(id_); }
-  // Of the program in use. Names that the shader does not need are ignored.
+  // The program must be in use. Uniforms that the shader does not use are ignored.
   void set(const char* name, int value) const { gl_.Uniform1i(at(name), value); }
   void set(const char* name, double value) const {
     gl_.Uniform1f(at(name), static_cast<float>(value));
@@ -36,7 +36,7 @@ class Program {
   void set(const char* name, const std::array<double, 2>& v) const;
   void set(const char* name, const std::array<double, 3>& v) const;
   void set(const char* name, const std::array<double, 4>& v) const;
-  /// Rows of the matrix one after the other.
+  /// The matrix in row-major order.
   void set(const char* name, const std::array<double, 9>& rows) const;
 
  private:
@@ -48,7 +48,7 @@ class Program {
 
 enum class PixelFormat { grey8, half_rgba, float_rgba, depth, shadow };
 
-/// Somewhere to draw to, and to read from in a shader.
+/// Can be drawn to, and read in a shader.
 class Texture {
  public:
   /// @throws std::runtime_error  the driver has no memory for it.
@@ -59,7 +59,7 @@ class Texture {
   Texture(Texture&&) = delete;
   Texture& operator=(Texture&&) = delete;
 
-  /// Shaders find it as texture `unit`.
+  /// Binds it to texture unit `unit`.
   void bind(int unit) const;
   GLuint id() const { return id_; }
   int width() const { return width_; }
@@ -71,7 +71,7 @@ class Texture {
   int width_, height_;
 };
 
-/// Textures that are drawn to together.
+/// Textures that are drawn to together (a framebuffer object).
 class Target {
  public:
   /// Either may be null.
@@ -83,7 +83,7 @@ class Target {
   Target(Target&&) = delete;
   Target& operator=(Target&&) = delete;
 
-  /// Everything drawn goes here, over its whole size.
+  /// All drawing goes here, with the viewport set to its full size.
   void use() const;
 
  private:
@@ -92,7 +92,7 @@ class Target {
   int width_, height_;
 };
 
-/// Triangles with any number of floats to a vertex, drawn once, or once for each instance.
+/// Triangles with any number of floats per vertex, drawn once, or once per instance.
 class Shape {
  public:
   /// @param parts  how many floats each attribute has, in the order of the program's attributes.
@@ -108,7 +108,7 @@ class Shape {
 
   void draw() const;
   /// @param instances  floats of all instances; their attributes follow those of the vertices,
-  /// `parts` as there.
+  /// `parts` as in the constructor.
   void draw(std::span<const float> instances, const std::vector<int>& parts) const;
 
  private:

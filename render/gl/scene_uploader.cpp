@@ -15,13 +15,13 @@ namespace {
 
 using dem::Vector;
 
-/// How far the corners that are left out may have stood off the triangles, pixels. The edge of a
-/// drawn heap is then within .25 px, .07 px on average (tests/render/detail_test.cpp).
+/// Maximum distance of removed vertices from the simplified triangles, pixels. The edge of a drawn
+/// heap is then accurate to .25 px, .07 px on average (tests/render/detail_test.cpp).
 constexpr double kTolerance_px = 0.4;
 constexpr std::size_t kMaxKept = 64;
-/// A wall's edges when a lens bends them, in parts of the scene's size.
+/// Longest edge of a wall's triangles if the lens distorts them, in units of Stage::radius_m.
 constexpr double kWallPart = 0.02;
-/// Half the side of the slab that stands for an endless plane, in parts of the grains' extent.
+/// Half the side of the slab that stands for an infinite plane, in units of Stage::radius_m.
 constexpr double kSlab = 3;
 
 std::uint64_t hash_of(const dem::ClumpShape& shape) {
@@ -44,7 +44,7 @@ std::uint64_t hash_of(const dem::ClumpShape& shape) {
   return hash;
 }
 
-/// Rows of the matrix that puts a body on the stage, and four random numbers.
+/// Rows of the matrix that places a body on the stage, and four random numbers.
 void append_instance(std::vector<float>& instances, const dem::Pose& pose, const Vector& origin,
                      std::uint64_t chance) {
   const Eigen::Matrix3d turn = pose.orientation.toRotationMatrix();
@@ -60,7 +60,7 @@ void append_instance(std::vector<float>& instances, const dem::Pose& pose, const
   }
 }
 
-/// Along the longest extent, to the end that is nearer to the centre of mass.
+/// Along the longest extent, towards the end that is nearer to the centre of mass.
 Vector blunt_end_of(const dem::ClumpShape& shape) {
   Vector low = Vector::Zero(), high = Vector::Zero();
   for (const dem::ClumpSphere& sphere : shape.spheres) {
@@ -72,7 +72,7 @@ Vector blunt_end_of(const dem::ClumpShape& shape) {
   return (-low[axis] < high[axis] ? low[axis] : high[axis]) * Vector::Unit(axis);
 }
 
-/// Metres to a pixel where a grain is nearest to the camera.
+/// Metres per pixel at the grain nearest to the camera.
 double finest_m_per_px(const Scene& scene, const View& view, double radius_m) {
   if (!view.is_perspective) return 1 / view.scale;
   double nearest = std::numeric_limits<double>::max();
@@ -87,7 +87,7 @@ double finest_m_per_px(const Scene& scene, const View& view, double radius_m) {
 
 SceneUploader::GrainShape SceneUploader::grain_shape(const dem::ClumpShape& shape, bool as_spheres,
                                                      double tolerance_m) {
-  // Steps of the tolerance, so that pictures of nearly the same scale share a surface.
+  // The tolerance is quantised, so that pictures of nearly the same scale share a surface.
   constexpr double kStepsToDouble = 4;
   const int step = static_cast<int>(std::floor(kStepsToDouble * std::log2(tolerance_m)));
   const double stepped_m = std::exp2(step / kStepsToDouble);

@@ -16,9 +16,9 @@ namespace {
 using dem::Vector;
 
 constexpr int kShadowSide = 1024;
-/// What the shadow maps show, in radii of the grains; a little more than the grains themselves.
+/// Half width of the shadow maps in units of Stage::radius_m; a little more than the grains.
 constexpr double kMapFraction = 1.1;
-/// How far from a face its shadow is looked up, in cells of the map.
+/// Offset from a face at which its shadow is looked up, in cells of the map.
 constexpr double kShadowShift = 1.5;
 constexpr int kKeyUnit = 0, kSkyUnit = 1, kPassUnit = 2;
 
@@ -36,13 +36,13 @@ std::array<double, 7> spread_point(int k) {
   return point;
 }
 
-/// Evenly over a disc of radius 1.
+/// Uniform over a disc of radius 1.
 std::array<double, 2> on_disc(double u, double v) {
   const double r = std::sqrt(u), turn = 2 * std::numbers::pi * v;
   return {r * std::cos(turn), r * std::sin(turn)};
 }
 
-/// Rows right, down and away from a light that shines from the direction `to_light`.
+/// Rows: right, down and away from a light in the direction `to_light`.
 Eigen::Matrix3d light_axes(const Vector& to_light) {
   const Vector away = -to_light.normalized();
   const Vector side = std::abs(away.z()) < .9 ? Vector::UnitZ() : Vector::UnitX();
@@ -61,7 +61,7 @@ std::array<double, 9> rows_of(const Eigen::Matrix3d& matrix) {
 
 std::array<double, 3> array_of(const Vector& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Top of the table that everything stands on.
+/// Height of the table top that everything stands on.
 double floor_of(const Scene& scene, const Stage& stage) {
   if (scene.setting) return scene.setting->floor_m;
   const double lowest = grain_bounds(scene, Eigen::Matrix3d::Identity()).min().z();
@@ -77,8 +77,8 @@ double floor_of(const Scene& scene, const Stage& stage) {
   return std::min(floor, lowest);
 }
 
-/// Where the backdrop hangs: behind the grains and the boxes that they lie on, so that little of
-/// the table shows between them.
+/// Position of the backdrop: behind the grains and the boxes that they lie on, close enough that
+/// little of the table shows between.
 double back_of(const Scene& scene, const Stage& stage, const Vector& into) {
   constexpr double kGap = .25, kFarthest = 4;  // in radii of the grains
   double farthest = stage.radius_m;
@@ -103,10 +103,10 @@ struct PhotoPainter::Programs {
         nothing(gl, std::vector<float>(9), std::vector<std::uint32_t>{0, 1, 2}, {3}) {}
 
   gl::Program body, shadow, room, add;
-  gl::Shape nothing;  ///< a triangle whose corners the shader itself makes up
+  gl::Shape nothing;  ///< a triangle whose vertices the shader generates
 };
 
-/// One photograph being taken.
+/// Takes one photograph.
 class PhotoPainter::Session {
  public:
   Session(const gl::Functions& gl, const Programs& programs, const Scene& scene, const View& view,
@@ -167,7 +167,7 @@ class PhotoPainter::Session {
   }
 
   Exposure exposure_of(const std::array<double, 7>& chance) const {
-    // A pixel's light is gathered over a tent a pixel to each side: edges without steps.
+    // Tent filter of half a pixel to each side: anti-aliased edges.
     const auto tent = [](double u) {
       return u < .5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
     };
@@ -286,7 +286,7 @@ class PhotoPainter::Session {
   const Programs& programs_;
   const View& view_;
   const std::vector<Stage>& stages_;
-  const Stage* stage_;  ///< of the pass at hand
+  const Stage* stage_;  ///< of the current pass
   const PhotoStyle& style_;
   double floor_m_, focus_m_, back_m_ = 0;
   gl::Texture key_, sky_, pass_, depth_, sum_;

@@ -12,12 +12,11 @@
 
 namespace repose::render {
 
-/// Lights a stage as a laboratory's is lit, and exposes it through a lens.
+/// Lights a stage like a laboratory, and exposes it through a lens.
 ///
-/// The picture is the mean of several, each with another point of the lamp, another direction of
-/// the light from all around, another point of the lens and another part of a pixel: soft shadows,
-/// dark gaps between grains, depth of field and smooth edges all come from that, and so does what
-/// moves while the picture is exposed.
+/// The picture is the mean of several passes, each with a different point of the lamp, direction of
+/// ambient light, point of the lens and position within the pixel: this yields soft shadows, dark
+/// gaps between grains, depth of field, smooth edges and motion blur.
 class PhotoPainter {
  public:
   explicit PhotoPainter(const gl::Functions& gl);
@@ -27,7 +26,7 @@ class PhotoPainter {
   PhotoPainter(PhotoPainter&&) = delete;
   PhotoPainter& operator=(PhotoPainter&&) = delete;
 
-  /// @param stages  the scene while it is exposed, one after the other; at least one
+  /// @param stages  the scene during the exposure, in order; at least one
   Light paint(const Scene& scene, const View& view, const std::vector<Stage>& stages,
               const PhotoStyle& style);
 

@@ -5,7 +5,7 @@
 namespace repose::render::shaders {
 namespace {
 
-/// Noise that is the same everywhere: integer hashes, blended.
+/// Noise that is the same on every driver: interpolated integer hashes.
 const char* const kNoise = R"(
 uint mixed(uint h) {
   h ^= h >> 16; h *= 0x7feb352du; h ^= h >> 15; h *= 0x846ca68bu; return h ^ (h >> 16);
@@ -29,8 +29,8 @@ float noise(vec3 p) {
 }
 )";
 
-/// What reaches a point: lamp and surroundings, each with its shadows, and what the table throws
-/// back.
+/// Light that reaches a point: lamp and surroundings, each with shadows, and the table's
+/// reflection.
 const char* const kLighting = R"(
 uniform sampler2DShadow key_map, sky_map;
 uniform mat3 key_axes, sky_axes;    // right, down, away from the light

@@ -19,7 +19,8 @@ double screen_of(double light) {
   return light <= .0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - .055;
 }
 
-/// Straight up to the knee, then bent so that 1 is never quite reached: highlights keep colour.
+/// Linear up to the knee, then compressed so that 1 is never quite reached: highlights keep their
+/// colour.
 double shouldered(double light) {
   constexpr double kKnee = .8;
   if (light <= kKnee) return light;
@@ -27,7 +28,7 @@ double shouldered(double light) {
   return kKnee + (1 - kKnee) * over / (1 + over);
 }
 
-/// Light to bytes, in steps finer than a byte is.
+/// Light to bytes, by a table finer than a byte's steps.
 class ToneCurve {
  public:
   ToneCurve() {
@@ -47,7 +48,7 @@ class ToneCurve {
   std::array<std::uint8_t, kSteps> table_{};
 };
 
-/// Half of a normalised Gaussian, its middle first.
+/// Half of a normalised Gaussian, centre first.
 std::vector<float> kernel(double sd_px) {
   const int reach = std::max(1, static_cast<int>(std::ceil(3 * sd_px)));
   std::vector<double> weights;
@@ -61,7 +62,8 @@ std::vector<float> kernel(double sd_px) {
   return normalised;
 }
 
-/// One direction: `count` lines of `length` pixels, `step` and `line_step` pixels apart.
+/// Blurs in one direction: `count` lines, `line_step` pixels apart, of `length` pixels, `step`
+/// apart.
 void blur_lines(std::vector<float>& rgb, const std::vector<float>& weights, std::ptrdiff_t count,
                 std::ptrdiff_t line_step, std::ptrdiff_t length, std::ptrdiff_t step) {
   const auto reach = static_cast<std::ptrdiff_t>(weights.size()) - 1;
@@ -115,7 +117,7 @@ vision::Picture tone_mapped(const Light& light, const PhotoStyle& style) {
       const double fall = 1 - style.vignette * (dx * dx + dy * dy) / corner2;
       for (std::size_t c = 0; c < 3; ++c) {
         const double value = std::max(0.0, fall * static_cast<double>(sharp.rgb[at + c]));
-        // Photons: variance grows with the light; a little is there in the dark.
+        // Shot noise: variance grows with the light; some remains in the dark.
         constexpr double kDark = .02;
         const double sd = style.noise * std::sqrt(value + kDark);
         const double noisy = value + sd * nearly_normal(mixed(start + at + c));

@@ -89,7 +89,7 @@ FilmedRun::FilmedRun(RunStates states, const Shutter& shutter)
                             .fix = "fewer frames per second."});
   }
   frames_ = static_cast<int>(frames);
-  // Some moments tell where all of them are: what moves far is seen on its way.
+  // A sample of moments gives the extent of all: what moves far is caught on its way.
   constexpr std::size_t kLooks = 60;
   std::vector<Scene> looks;
   for (std::size_t k = 0; k < std::min(kLooks, count); ++k) {
@@ -138,7 +138,7 @@ std::vector<Scene> FilmedRun::moments(int frame, int count) {
 
 namespace {
 
-/// 1, 2 or 5 times a power of ten, at most a length.
+/// The largest 1, 2 or 5 times a power of ten that does not exceed a length.
 double round_length(double length) {
   const double power = std::pow(10, std::floor(std::log10(length)));
   const double part = length / power;

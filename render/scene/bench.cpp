@@ -18,7 +18,7 @@ double greatest_reach_m(const std::vector<Scene>& moments) {
   return greatest;
 }
 
-/// Where the grains are in a wall's frame in all moments.
+/// Bounding box of the grains over all moments, in a wall's frame.
 Eigen::AlignedBox3d way_on(const std::vector<Scene>& moments, std::size_t wall) {
   Eigen::AlignedBox3d way;
   for (const Scene& moment : moments) {
@@ -56,7 +56,7 @@ Bench::Bench(const std::vector<Scene>& moments) {
     setting_.extent.extend(grain_bounds(moment, Eigen::Matrix3d::Identity()));
   }
   const std::size_t walls = moments.front().walls.size();
-  // Walls that are taken out change the others' numbers: heaps, whose plates have an end.
+  // Removing a wall renumbers the others. That happens in heap runs, whose plates are finite.
   const bool is_alike = std::all_of(moments.begin(), moments.end(), [walls](const Scene& moment) {
     return moment.walls.size() == walls;
   });
@@ -69,9 +69,10 @@ Bench::Bench(const std::vector<Scene>& moments) {
 
 std::optional<Bench::Plate> Bench::plate_of(const std::vector<Scene>& moments,
                                             std::size_t wall) const {
-  // In reaches of the grains: how far a plate goes on beyond their way, and how thick it is.
+  // How far a plate extends beyond the grains' paths, and its thickness, in reaches of the largest
+  // grain.
   constexpr double kBeyond = 4, kSameEdgeTolerance = 6, kBehindHinge = 2, kThick = 1.5;
-  constexpr double kOfWay = .75;  // of the extent: a plate that does not turn is longer
+  constexpr double kOfWay = .75;  // of the extent: a plate that does not rotate is longer
   constexpr double kMuchWider = 10;
   const PlacedWall& placed = moments.front().walls[wall];
   const double reach = greatest_reach_m(moments);
@@ -106,7 +107,7 @@ PlacedWall Bench::cut(const PlacedWall& wall, std::size_t number) const {
                    .orientation = wall.pose.orientation}};
 }
 
-/// The table is below all, and all of a plate that turns is to be seen.
+/// The table is below everything, and plates that rotate are fully visible.
 void Bench::set_floor(const std::vector<Scene>& moments) {
   Eigen::AlignedBox3d turning;
   setting_.floor_m = setting_.extent.min().z();

@@ -7,23 +7,23 @@
 
 namespace repose::render {
 
-/// What a run is done on, as it stands before a camera from its beginning to its end.
+/// The apparatus of a run as the camera sees it from beginning to end.
 ///
-/// Level and tilting planes without end become plates as long as the grains' way on them, which for
-/// a plate that turns reaches to its hinge, the origin of its frame; boards much wider than the
-/// way become as narrow as a bench's. Nothing that a grain touches changes.
+/// Infinite level and tilting planes become plates that cover the grains' paths; one that turns
+/// reaches to its hinge, the origin of its frame. Boards much wider than the paths become as narrow
+/// as those of a bench. Nothing that a grain touches changes.
 class Bench {
  public:
-  /// @param moments  from all over the run, the first and the last among them; at least one
+  /// @param moments  from the whole run, including the first and the last; at least one
   explicit Bench(const std::vector<Scene>& moments);
 
-  /// A moment of the run on this bench, with the setting of all.
+  /// A moment of the run on this bench, with the setting common to all.
   Scene set(Scene moment) const;
 
   const Setting& setting() const { return setting_; }
 
  private:
-  /// A wall cut to size, in the frame of the wall that it is cut from.
+  /// A wall cut to size, in the original wall's frame.
   struct Plate {
     dem::Vector middle = dem::Vector::Zero();
     dem::Vector half_size = dem::Vector::Zero();
@@ -33,8 +33,8 @@ class Bench {
   PlacedWall cut(const PlacedWall& wall, std::size_t number) const;
   void set_floor(const std::vector<Scene>& moments);
 
-  std::vector<std::optional<Plate>> plates_;  ///< for each wall; none: it stays as it is
-  std::vector<bool> turns_;                   ///< each wall
+  std::vector<std::optional<Plate>> plates_;  ///< for each wall; std::nullopt: unchanged
+  std::vector<bool> turns_;                   ///< whether each wall rotates
   Setting setting_;
 };
 

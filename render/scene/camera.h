@@ -8,36 +8,36 @@
 #include "base/input_error.h"
 #include "dem/vector.h"
 
-/// Where the picture is taken from.
+/// Camera models and positions.
 ///
-/// At azimuth 0 the camera looks along +y: x is to the right and z upwards, the view that is called
-/// XZ. A rising azimuth walks the camera counter-clockwise round the heap, seen from above.
+/// At azimuth 0 the camera looks along +y: x is to the right and z upwards, the XZ view. Increasing
+/// azimuth moves the camera counter-clockwise round the heap, seen from above.
 namespace repose::render {
 
 struct PictureSize {
   int width = 1920;
   int height = 1080;
 
-  /// Empty when usable; else what is wrong, the rule, and what to do.
+  /// Empty if usable; otherwise what is wrong, the rule, and what to do.
   std::vector<base::Fault> problems() const;
 };
 
-/// Level, parallel rays: all depths have the same scale.
+/// Horizontal, parallel rays: the scale is the same at all depths.
 struct OrthographicCamera {
   double azimuth_rad = 0;
-  /// Millimetres to a pixel; without it all grains fit into the picture.
+  /// Millimetres per pixel; if not given, all grains fit into the picture.
   std::optional<double> mm_per_px = {};
-  /// What is in the middle of the picture; without it the middle of the grains.
+  /// The point shown in the middle of the picture; by default the middle of the grains.
   std::optional<dem::Vector> middle_m = {};
 };
 
-/// Of 35 mm film: what focal lengths are quoted for.
+/// Width of 35 mm film, to which focal lengths refer.
 inline constexpr double kFilmWidth_mm = 36;
 
 /// A laboratory camera with a lens.
 struct PerspectiveCamera {
   dem::Vector position_m = dem::Vector::Zero();  ///< of the lens
-  double azimuth_rad = 0;                        ///< which way it looks
+  double azimuth_rad = 0;                        ///< viewing direction
   double pitch_rad = 0;                          ///< > 0 looks down
   double roll_rad = 0;   ///< > 0 lowers the ground's right end in the picture
   double focal_mm = 85;  ///< for a picture kFilmWidth_mm wide
@@ -51,30 +51,30 @@ struct PerspectiveCamera {
 
 using Camera = std::variant<OrthographicCamera, PerspectiveCamera>;
 
-/// A camera on a tripod before the grains' middle.
+/// A camera on a tripod in front of the grains' middle.
 struct LabStand {
   double azimuth_rad = 0;
   double distance_m = 1.5;               ///< from the grains' middle, along the floor
-  std::optional<double> height_m = {};   ///< above the ground; without it the axis meets the middle
-  std::optional<double> pitch_rad = {};  ///< without it level
-  std::optional<double> focal_mm = {};   ///< without it the grains fit into the picture
+  std::optional<double> height_m = {};   ///< above ground; default: the axis meets the middle
+  std::optional<double> pitch_rad = {};  ///< by default level
+  std::optional<double> focal_mm = {};   ///< by default the grains fit into the picture
 };
 
 struct Scene;
 
 /// The camera on that stand.
-/// @throws base::InputError  no grains, or a distance that is not above 0.
+/// @throws base::InputError  no grains, or a distance not above 0.
 PerspectiveCamera camera_on(const LabStand& stand, const Scene& scene, const PictureSize& size);
 
-/// The same camera with its scale and middle set, so that all grains fit into the picture from any
-/// azimuth: for pictures of a heap from all around.
+/// The same camera with scale and middle set so that all grains fit into the picture from any
+/// azimuth, for pictures of a heap from all sides.
 /// @throws base::InputError  no grains.
 OrthographicCamera fitted_all_around(const OrthographicCamera& camera, const Scene& scene,
                                      const PictureSize& size);
 
-/// The same stand with the focal length set, so that all grains and the ground under them fit into
+/// The same stand with the focal length set so that all grains and the ground below them fit into
 /// the picture from any azimuth.
-/// @throws base::InputError  no grains, or some reach as far as the camera.
+/// @throws base::InputError  no grains, or some extend as far as the camera.
 LabStand fitted_stand(const LabStand& stand, const Scene& scene, const PictureSize& size);
 
 }  // namespace repose::render

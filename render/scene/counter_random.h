@@ -4,9 +4,9 @@
 
 namespace repose::render {
 
-/// A well-mixed number for each counter: random numbers that need no state, so that any of them can
-/// be had at any time. Source: Steele, Lea & Flood, Fast splittable pseudorandom number generators,
-/// OOPSLA 2014 (SplitMix64).
+/// A well-mixed number for each counter: stateless random numbers, any of which can be computed at
+/// any time. Source: Steele, Lea & Flood, Fast splittable pseudorandom number generators, OOPSLA
+/// 2014 (SplitMix64).
 constexpr std::uint64_t mixed(std::uint64_t counter) {
   std::uint64_t z = counter + 0x9e3779b97f4a7c15ULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -7,10 +7,10 @@ namespace repose::render {
 
 namespace {
 
-/// A wall face is level up to this sine of its slope.
+/// Largest sine of the slope of a level wall face.
 constexpr double kLevel = 1e-6;
 
-/// Height of a wall's upper face, if that is level.
+/// Height of a wall's upper face, if it is level.
 std::optional<double> level_face_m(const PlacedWall& wall) {
   const Eigen::Matrix3d axes = wall.pose.orientation.toRotationMatrix();
   if (std::holds_alternative<dem::Plane>(wall.shape)) {
@@ -30,7 +30,7 @@ const dem::ClumpShape& shape_of(const Scene& scene, const PlacedGrain& grain) {
   return scene.shapes[static_cast<std::size_t>(grain.shape)];
 }
 
-/// By what the turned surface takes up along one axis.
+/// Extends the bounds along one axis to include the rotated surface.
 void extend_along(Eigen::AlignedBox3d& bounds, int axis, double middle_m,
                   const Eigen::RowVector3d& direction, const dem::Mesh& surface) {
   double low = bounds.min()[axis];
@@ -55,8 +55,7 @@ Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes
     }
     return bounds;
   }
-  // Spheres first: inside of what they take up lie all but a few surfaces, which need not be
-  // turned.
+  // Spheres first: all but a few surfaces lie inside their bounds and need not be rotated.
   for (const PlacedGrain& grain : scene.grains) {
     const dem::Vector middle = axes * grain.pose.position;
     const Eigen::Matrix3d turn = axes * grain.pose.orientation.toRotationMatrix();
@@ -97,7 +96,8 @@ namespace {
 
 using dem::Vector;
 
-/// The point of a straight line in space that is seen in column `x`; columns rise along the line.
+/// The point of a straight line in space that is seen in column `x`; columns increase along the
+/// line.
 std::optional<vision::Point> at_column(const View& view, const Vector& middle, const Vector& way,
                                        double reach_m, double x) {
   double low = -reach_m, high = reach_m;
@@ -118,10 +118,10 @@ std::optional<vision::Segment> ground_in_picture(const Scene& scene, const View&
   if (!ground) return std::nullopt;
   Vector middle = grain_bounds(scene, Eigen::Matrix3d::Identity()).center();
   middle.z() = *ground;
-  Vector right = view.axes.row(0);  // turned by the camera's roll
+  Vector right = view.axes.row(0);  // includes the camera's roll
   const Vector into = view.axes.row(2);
   right = into.cross(Vector::UnitZ());
-  if (right.norm() < 1e-9) return std::nullopt;  // looks straight down
+  if (right.norm() < 1e-9) return std::nullopt;  // the camera looks straight down
   right.normalize();
   const double width_m =
       view.size.width / view.scale * (view.is_perspective ? view.in_camera(middle).z() : 1.0);

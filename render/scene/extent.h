@@ -8,21 +8,22 @@
 #include "render/scene/view.h"
 #include "vision/picture/picture.h"
 
-/// How large a scene is and where it stands.
+/// Size and position of a scene.
 
 namespace repose::render {
 
-/// Box round all grains, along axes whose rows are given; empty without grains. Exact for spheres
-/// and surfaces, whichever is larger. Of a scene with a setting, the box round its extent.
+/// Bounding box of all grains along the axes in the rows of `axes`; empty without grains. Exact for
+/// spheres and surfaces, whichever is larger. For a scene with a setting, the box around its
+/// extent.
 Eigen::AlignedBox3d grain_bounds(const Scene& scene, const Eigen::Matrix3d& axes);
 
-/// What the grains lie on: height of the highest level wall face below the grains' middle, m. None
-/// without such a wall.
+/// Height of the highest level wall face below the grains' middle, on which they lie, m.
+/// std::nullopt without such a wall.
 std::optional<double> ground_m(const Scene& scene);
 
-/// Where the ground meets the upright plane through the grains' middle that faces the camera, at
-/// the picture's left and right edge. None when nothing level is below the grains, or when it
-/// cannot be seen.
+/// Where the ground meets the vertical plane through the grains' middle that faces the camera, at
+/// the picture's left and right edges. std::nullopt if nothing level is below the grains, or it is
+/// not visible.
 std::optional<vision::Segment> ground_in_picture(const Scene& scene, const View& view);
 
 }  // namespace repose::render

@@ -31,7 +31,7 @@ std::vector<PlacedWall> placed(const std::vector<dem::Wall>& walls, double time_
 }  // namespace
 
 bool is_pane(const PlacedWall& wall) {
-  constexpr double kUpright = 1e-6;  // sine of what it leans
+  constexpr double kUpright = 1e-6;  // sine of the tilt from vertical
   const dem::Vector normal = wall.pose.orientation * dem::Vector::UnitZ();
   return std::holds_alternative<dem::Plane>(wall.shape) && std::abs(normal.z()) < kUpright;
 }

@@ -11,30 +11,30 @@
 #include "dem/vector.h"
 #include "dem/wall/wall.h"
 
-/// What there is to see. Metres, z upwards.
+/// The contents of a picture. Metres, z upwards.
 namespace repose::render {
 
-/// A grain where it lies.
+/// A grain at its place.
 struct PlacedGrain {
   int shape = 0;                               ///< which of the scene's shapes
-  int number = 0;                              ///< in the simulation; its looks follow from it
+  int number = 0;                              ///< in the simulation; determines its appearance
   dem::Pose pose;                              ///< of the centre of mass
   dem::Vector velocity = dem::Vector::Zero();  ///< of the centre of mass, m/s
 };
 
-/// A wall where it stands.
+/// A wall at its place.
 struct PlacedWall {
   dem::WallShape shape;
   dem::Pose pose;
 };
 
-/// An upright plane, which has no end and would hide all that is behind it: it is taken for glass,
-/// as before and behind the boxes of a bench, and not drawn.
+/// A vertical plane: it is infinite and would hide everything behind it, so it counts as glass,
+/// like the panes in front of and behind a bench's boxes, and is not drawn.
 bool is_pane(const PlacedWall& wall);
 
-/// What stays as it is while grains move: a film's camera, lamps, table and backdrop.
+/// What stays the same while grains move; it determines a film's camera, lamps, table and backdrop.
 struct Setting {
-  Eigen::AlignedBox3d extent;  ///< what cameras fit into the picture and lamps light
+  Eigen::AlignedBox3d extent;  ///< that cameras fit into the picture and lamps light
   double floor_m = 0;          ///< top of the table
 };
 
@@ -42,17 +42,17 @@ struct Scene {
   std::vector<dem::ClumpShape> shapes;
   std::vector<PlacedGrain> grains;
   std::vector<PlacedWall> walls;
-  std::optional<Setting> setting = {};  ///< without it all follows from the grains
+  std::optional<Setting> setting = {};  ///< by default derived from the grains
 };
 
-/// The grains and walls that are present, at the time of the state.
+/// The grains and walls present at the time of the state.
 Scene scene_of(const dem::SavedState& state);
 Scene scene_of(const dem::Simulation& simulation);
 
-/// How far a shape reaches from its centre of mass, spheres and surface, m.
+/// Bounding radius of a shape about its centre of mass, spheres and surface, m.
 double reach_m(const dem::ClumpShape& shape);
 
-/// The same for each of a scene's shapes.
+/// The same for each shape of a scene.
 std::vector<double> reaches_of(const Scene& scene);
 
 }  // namespace repose::render

@@ -20,7 +20,7 @@ void append(Surface& surface, const Vector& point, const Vector& normal) {
   for (const double value : normal) surface.vertices.push_back(static_cast<float>(value));
 }
 
-/// Weighted by the triangles' areas.
+/// Weighted by triangle area.
 std::vector<Vector> smooth_normals(const dem::Mesh& mesh) {
   std::vector<Vector> normals(mesh.vertices.size(), Vector::Zero());
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -34,7 +34,7 @@ std::vector<Vector> smooth_normals(const dem::Mesh& mesh) {
   return normals;
 }
 
-/// Drops vertices that no triangle uses any more.
+/// Drops vertices that no triangle uses.
 Surface compact(const Surface& surface) {
   constexpr auto kUnused = static_cast<std::uint32_t>(-1);
   std::vector<std::uint32_t> place(surface.vertices.size() / Surface::kFloats, kUnused);
@@ -52,7 +52,7 @@ Surface compact(const Surface& surface) {
   return compacted;
 }
 
-/// A unit sphere of triangles, each edge of an icosahedron halved `level` times.
+/// A unit sphere of triangles: an icosahedron with each edge halved `level` times.
 dem::Mesh icosphere(int level) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   dem::Mesh mesh{.vertices = {{-1, g, 0},
@@ -94,15 +94,15 @@ dem::Mesh icosphere(int level) {
   return mesh;
 }
 
-/// How far the middles of an icosphere's longest edges lie inside the unit sphere. The edges span
-/// 63.4 degrees at level 0, 36 at level 1 and about half as much, always below this bound, at each
-/// further one.
+/// Upper bound of how far the midpoints of an icosphere's longest edges lie inside the unit sphere.
+/// The edges span 63.4 degrees at level 0, 36 at level 1 and about half as much at each further
+/// level.
 double sagitta(int level) {
   constexpr double kLongestEdge_rad = 1.32;  // 75.6 degrees
   return 1 - std::cos(.5 * kLongestEdge_rad / std::exp2(level));
 }
 
-/// What makes a polyhedron in the unit sphere as large as that in surface, and so in its mean
+/// Scale that gives a polyhedron in the unit sphere the sphere's surface area, and so its mean
 /// shadow (see restore_area).
 double growth_of(const dem::Mesh& mesh) {
   double area = 0;
@@ -119,7 +119,7 @@ constexpr int kFinestSphere = 6;  ///< 81,920 triangles
 
 int level_for(double radius_m, double tolerance_m) {
   int level = 1;
-  // The polyhedron is blown up by half the sagitta, so that the error is one of +- half of it.
+  // The polyhedron is enlarged by half the sagitta, so that the error is within +- half of it.
   while (level < kFinestSphere && .5 * radius_m * sagitta(level) > tolerance_m) ++level;
   return level;
 }
@@ -128,8 +128,8 @@ bool is_inside(const dem::ClumpSphere& sphere, const Vector& point) {
   return (point - sphere.centre).squaredNorm() < sphere.radius * sphere.radius;
 }
 
-/// A sphere's triangles, less those in another sphere: that is convex, so that three corners in it
-/// are enough.
+/// A sphere's triangles, except those inside another sphere: spheres are convex, so it suffices
+/// that all three vertices are inside.
 void append_sphere(Surface& surface, const std::vector<dem::ClumpSphere>& spheres, std::size_t own,
                    double tolerance_m) {
   const dem::ClumpSphere& sphere = spheres[own];
@@ -140,7 +140,7 @@ void append_sphere(Surface& surface, const std::vector<dem::ClumpSphere>& sphere
   for (const Vector& vertex : mesh.vertices) {
     append(surface, sphere.centre + radius * vertex, vertex);
   }
-  // Another sphere's own polyhedron must hide it: one that is as much smaller as it may be.
+  // The other sphere's polyhedron must hide the triangle: its radius is reduced by the tolerance.
   const auto is_hidden = [&](const std::array<int, 3>& triangle) {
     for (std::size_t k = 0; k < spheres.size(); ++k) {
       dem::ClumpSphere other = spheres[k];
@@ -162,7 +162,7 @@ void append_sphere(Surface& surface, const std::vector<dem::ClumpSphere>& sphere
   }
 }
 
-/// A parallelogram of small ones; `across` times `up` points outwards.
+/// A parallelogram divided into small ones; the cross product of `across` and `up` points outwards.
 void append_sheet(Surface& surface, const Vector& corner, const Vector& across, const Vector& up,
                   double edge_m) {
   static constexpr double kMaxParts = 400;
@@ -203,7 +203,7 @@ void append_tube(Surface& surface, const dem::Tube& tube, double edge_m) {
     const double turn = 2 * std::numbers::pi * k / kSides;
     return Vector(std::cos(turn), std::sin(turn), 0);
   };
-  // Rounded: the normals of each strip are those of the tube.
+  // Flat strips: each has the normal of its own plane.
   for (int k = 0; k < kSides; ++k) {
     const Vector from = way(k), to = way(k + 1);
     append_sheet(surface, outer * from, outer * (to - from), up, edge_m);
@@ -237,7 +237,7 @@ void append_flat(Surface& surface, const dem::Mesh& mesh) {
   }
 }
 
-/// The spheres of a bed within half a side of a place, as many as can be drawn.
+/// The spheres of a bed within `half_m` of a place, at most as many as can be drawn.
 void append_bed(Surface& surface, const dem::SphereBed& bed, const Vector& middle, double half_m) {
   constexpr double kMaxSpheres = 20000, kTolerance = .02;  // of the radius
   const double most =
@@ -259,7 +259,7 @@ void append_bed(Surface& surface, const dem::SphereBed& bed, const Vector& middl
   }
 }
 
-/// Twice the area of all triangles.
+/// Twice the total area of the triangles.
 double area_of(const Surface& surface) {
   const auto at = [&surface](std::uint32_t corner) {
     const float* first = &surface.vertices[corner * Surface::kFloats];
@@ -273,13 +273,13 @@ double area_of(const Surface& surface) {
   return area;
 }
 
-/// Round bodies shrink when their corners are fewer. Blows the surface up to the area that the
-/// whole one had: a convex body's silhouettes then have the same area too, on average over all
-/// directions, and its edge errs to both sides. Source: Cauchy (1832), a convex body's mean shadow
-/// is a quarter of its surface. Proved by Surface.FewerTrianglesKeepTheSilhouettesArea.
+/// Round bodies shrink when vertices are removed. Scales the surface up to the area of the full
+/// one: a convex body's silhouettes then have the same area too, averaged over all directions, and
+/// edge errors go both ways. Source: Cauchy (1832), a convex body's mean shadow is a quarter of its
+/// surface. Proved by Surface.FewerTrianglesKeepTheSilhouettesArea.
 void restore_area(Surface& surface, double area) {
   const double now = area_of(surface);
-  constexpr double kMax = 1.2;  // more is no rounding but a surface fallen to pieces
+  constexpr double kMax = 1.2;  // more means that the surface has collapsed
   if (!(now > 0) || !(area > now) || area > kMax * now) return;
   const auto growth = static_cast<float>(std::sqrt(area / now));
   for (std::size_t k = 0; k < surface.vertices.size(); k += Surface::kFloats) {
@@ -308,7 +308,7 @@ Surface grain_surface(const dem::Mesh& mesh, double tolerance_m) {
                                              surface.vertices.data(), vertices, kStride, 0,
                                              static_cast<float>(tolerance_m) / whole);
   surface.corners.resize(saved);
-  if (saved == 0) surface.corners = corners;  // nothing is left of a grain smaller than that
+  if (saved == 0) surface.corners = corners;  // a grain smaller than the tolerance has vanished
   restore_area(surface, area);
   return compact(surface);
 }

@@ -11,9 +11,9 @@
 
 namespace repose::render {
 
-/// Triangles to draw, with a normal at each corner.
+/// Triangles to draw, with a normal at each vertex.
 struct Surface {
-  static constexpr std::size_t kFloats = 6;  ///< to a vertex
+  static constexpr std::size_t kFloats = 6;  ///< per vertex
 
   std::vector<float> vertices;  ///< x y z, m, and the unit normal
   std::vector<std::uint32_t> corners;
@@ -22,17 +22,17 @@ struct Surface {
 };
 
 /// A grain's surface with as few triangles as the tolerance allows, and the smooth normals of the
-/// whole mesh. Edges are collapsed in the order of their quadric error (Garland & Heckbert, Surface
-/// simplification using quadric error metrics, SIGGRAPH 1997); then the area is restored.
-/// Proved by Surface.* in tests/render/surface_test.cpp.
+/// full mesh. Edges are collapsed in the order of their quadric error (Garland & Heckbert, Surface
+/// simplification using quadric error metrics, SIGGRAPH 1997); then the area is restored. Proved by
+/// Surface.* in tests/render/surface_test.cpp.
 Surface grain_surface(const dem::Mesh& mesh, double tolerance_m);
 
 /// Spheres as polyhedra whose silhouettes are within the tolerance of the circles and enclose, on
-/// average, the same area. Triangles that lie wholly in another sphere are left out.
+/// average, the same area. Triangles wholly inside another sphere are left out.
 Surface sphere_surface(const std::vector<dem::ClumpSphere>& spheres, double tolerance_m);
 
-/// A wall; a plane is a slab of the size given. No edge is longer than `edge_m`, so that a lens can
-/// bend it.
+/// A wall; a plane becomes a slab of the given size. No edge is longer than `edge_m`, so that lens
+/// distortion can bend it.
 Surface wall_surface(const dem::WallShape& shape, const dem::Vector& slab_middle,
                      double slab_half_m, double edge_m);
 

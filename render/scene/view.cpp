@@ -15,13 +15,13 @@ namespace {
 
 using dem::Vector;
 
-/// Drivers draw nothing, without a word, beyond this.
+/// Drivers silently draw nothing beyond this.
 constexpr int kLongestSide = 16384;
 /// A picture of this many pixels takes about 2 GB while it is drawn.
 constexpr std::int64_t kMaxPixels = 64'000'000;
 /// Left free on each side of the grains, as a fraction of the picture's width or height.
 constexpr double kMargin = .1;
-/// The distortion may flatten the picture to this slope, not more.
+/// The smallest slope to which distortion may flatten the picture.
 constexpr double kMinSlope = .1;
 
 void check(const PictureSize& size) {
@@ -61,7 +61,7 @@ Eigen::AlignedBox3d bounds_to_fit(const Scene& scene, const Eigen::Matrix3d& axe
   return bounds;
 }
 
-/// What the camera does not say is chosen such that all grains are seen.
+/// Chooses what the camera leaves open so that all grains are visible.
 void fit(View& view, const Scene& scene, const OrthographicCamera& camera) {
   const Eigen::AlignedBox3d bounds = bounds_to_fit(scene, view.axes);
   const Vector extent = bounds.sizes();
@@ -81,7 +81,7 @@ View orthographic(const Scene& scene, const OrthographicCamera& camera, const Pi
   }
   if (camera.middle_m) view.eye = *camera.middle_m;
   if (camera.mm_per_px && camera.middle_m) {
-    require_grains(scene.setting || !scene.grains.empty());  // and need not be measured
+    require_grains(scene.setting || !scene.grains.empty());  // their extent is not needed
   } else {
     fit(view, scene, camera);
   }
@@ -97,11 +97,11 @@ double slope_at(const View& view, double r) {
   return 1 + 3 * view.k1 * r2 + 5 * view.k2 * r2 * r2;
 }
 
-/// Finds how far out the lens can be followed; it must be the whole picture.
+/// Finds the radius up to which the distortion is invertible; it must cover the whole picture.
 void limit_distortion(View& view) {
   const double corner = std::hypot(view.middle.x, view.middle.y) / view.scale;
   constexpr int kSteps = 1000;
-  constexpr double kFarthest = 2;  // corners: a barrel lens sees farther than its picture is wide
+  constexpr double kFarthest = 2;  // corner distances: a barrel lens sees beyond its picture
   view.greatest_r = kFarthest * corner;
   for (int k = 0; k <= kSteps; ++k) {
     const double r = kFarthest * corner * k / kSteps;
@@ -118,7 +118,7 @@ void limit_distortion(View& view) {
        .fix = "smaller numbers, or a longer focal length."});
 }
 
-/// Upright, with all grains of a scene in it.
+/// Vertical, containing all grains of a scene.
 struct Cylinder {
   Vector middle;
   double radius = 0;
@@ -137,18 +137,19 @@ Cylinder cylinder_around(const Scene& scene) {
   return around;
 }
 
-/// So that what reaches so far from the picture's middle fits into it.
+/// The scale at which an object of this half size fits into the picture.
 double fitting_px_per_m(double half_width_m, double half_height_m, const PictureSize& size) {
   const double room = 1 - 2 * kMargin;
   return std::min(.5 * room * size.width / half_width_m, .5 * room * size.height / half_height_m);
 }
 
-/// The near side of what reaches so far from the middle: it is what must fit.
+/// Distance of the near side of an object that extends `reach_m` from its middle: that side must
+/// fit.
 double nearest_of(double distance_m, double reach_m) {
   return std::max(distance_m - reach_m, .1 * distance_m);
 }
 
-/// Between grains, under grains or in one of them.
+/// The eye must not be between or in grains, nor below the ground.
 void check_outside(const Scene& scene, const Vector& eye) {
   bool has_above = false, has_below = false;
   const std::vector<double> reaches_m = reaches_of(scene);
@@ -246,7 +247,7 @@ View view_of(const Scene& scene, const Camera& camera, const PictureSize& size) 
 PerspectiveCamera camera_on(const LabStand& stand, const Scene& scene, const PictureSize& size) {
   check(size);
   check_number("distance_m", stand.distance_m, 1e-4, 1e4, "about three heap widths.");
-  constexpr double kSteepest = 1.4;  // the picture's middle must stay on the grains
+  constexpr double kSteepest = 1.4;  // so that the grains stay in the middle of the picture
   check_number("pitch_rad", stand.pitch_rad.value_or(0), -kSteepest, kSteepest, "0");
   const Eigen::Matrix3d axes = axes_at(stand.azimuth_rad, 0, 0);
   const Eigen::AlignedBox3d bounds = bounds_to_fit(scene, axes);

@@ -18,7 +18,7 @@ namespace repose::render {
 
 namespace {
 
-/// Calls `use(y, first, end)` for each row of pixels whose middles lie in a disc.
+/// Calls `use(y, first, end)` for each row of pixels whose centres lie in a disc.
 template <class Use>
 void for_rows(const PictureSize& size, const vision::Point& middle, double radius_px, Use use) {
   const auto clipped = [](double value, int most) {
@@ -142,10 +142,10 @@ std::vector<std::uint8_t> MaskPainter::paint_uncovered(const View& view, const S
 
 namespace {
 
-/// Drawn corners may be off by less than this, pixels: drivers round to sixteenths at least.
+/// Bound on the error of drawn vertices, pixels: drivers round to sixteenths or finer.
 constexpr double kRounding_px = .1;
 
-/// Triangles of all grains, each vertex with its grain's instance beside it.
+/// Triangles picked from all grains; each vertex also carries its grain's instance data.
 class Picked {
  public:
   Picked(const View& view, const Stage& stage, const CoveredArea& covered)
@@ -164,13 +164,13 @@ class Picked {
     }
   }
 
-  /// As much as should be in memory at a time: of a million grains it would be gigabytes.
+  /// Limits memory: a million grains would need gigabytes.
   bool is_full() const {
     constexpr std::size_t kMostFloats = std::size_t{1} << 24;
     return vertices_.size() > kMostFloats;
   }
 
-  /// Draws what was added, and is then empty.
+  /// Draws what was added, then clears it.
   void draw(const gl::Functions& gl) {
     if (corners_.empty()) return;
     std::vector<int> parts = kVertexParts;
@@ -199,7 +199,7 @@ class Picked {
     }
   }
 
-  /// All pixels whose middles a triangle may blacken.
+  /// All pixels whose centres a triangle may cover.
   PixelBox box_of(std::span<const std::uint32_t> triangle) const {
     const auto clipped = [](double value) {
       constexpr double kMax = 1 << 20;  // wider than any picture
@@ -230,7 +230,7 @@ class Picked {
   Eigen::Vector2d origin_px_;
   const CoveredArea& covered_;
   std::vector<double> xs_, ys_;         ///< of the surface's vertices, pixels
-  std::vector<std::uint32_t> numbers_;  ///< theirs among all vertices, or kNone
+  std::vector<std::uint32_t> numbers_;  ///< their indices among all vertices, or kNone
   std::vector<float> vertices_;
   std::vector<std::uint32_t> corners_;
 };

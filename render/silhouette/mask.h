@@ -13,11 +13,11 @@
 
 namespace repose::render {
 
-/// Sets all pixels to 255 whose middles lie in a disc.
+/// Sets all pixels whose centres lie in a disc to 255.
 void cover_disc(std::vector<std::uint8_t>& mask, const PictureSize& size,
                 const vision::Point& middle, double radius_px);
 
-/// Pixels from the first ones to before the last ones.
+/// Half-open ranges of pixels: first to end - 1.
 struct PixelBox {
   int first_x = 0;
   int end_x = 0;
@@ -25,18 +25,18 @@ struct PixelBox {
   int end_y = 0;
 };
 
-/// Tells of any part of a picture whether all of its pixels are covered.
+/// Tests whether all pixels of any part of a picture are covered.
 class CoveredArea {
  public:
   /// @param mask  0 where a pixel is not covered
   CoveredArea(const std::vector<std::uint8_t>& mask, const PictureSize& size);
 
-  /// Those in the picture; also true when there are none.
+  /// Only pixels inside the picture count; true if there are none.
   bool hides_box(const PixelBox& box) const;
   bool hides_disc(const vision::Point& middle, double radius_px) const;
 
  private:
-  /// Covered pixels above and left of a corner between pixels.
+  /// Number of covered pixels above and to the left of a pixel corner.
   std::uint32_t& before(int y, int x) { return before_[at(y, x)]; }
   std::uint32_t before(int y, int x) const { return before_[at(y, x)]; }
   std::size_t at(int y, int x) const {
@@ -48,16 +48,16 @@ class CoveredArea {
   std::vector<std::uint32_t> before_;
 };
 
-/// Draws which pixels show grains: a byte a pixel, 255 where the pixel's middle shows one.
+/// Draws which pixels show grains: one byte per pixel, 255 if its centre shows one.
 class MaskPainter {
  public:
   explicit MaskPainter(const gl::Functions& gl);
 
-  /// Walls before the grains hide them.
+  /// Walls in front of grains hide them.
   std::vector<std::uint8_t> paint(const View& view, const Stage& stage);
   /// Without walls.
   std::vector<std::uint8_t> paint_grains(const View& view, const Stage& stage);
-  /// The same, seen with parallel rays; but what is covered may be left out.
+  /// The same with parallel rays, but covered pixels may be left blank.
   std::vector<std::uint8_t> paint_uncovered(const View& view, const Stage& stage,
                                             const CoveredArea& covered);
 
@@ -69,9 +69,8 @@ class MaskPainter {
   gl::Program program_;
 };
 
-/// Draws the grains' triangles, with the program in use, that may reach pixels which are not
-/// covered: of a heap a tenth of those of its visible grains. Pixels that are not covered look as
-/// if all had been drawn.
+/// With the current program, draws only the grains' triangles that may reach uncovered pixels: in a
+/// heap, a tenth of those of its visible grains. Uncovered pixels look as if all had been drawn.
 /// @param view  with parallel rays
 void draw_uncovered(const gl::Functions& gl, const View& view, const Stage& stage,
                     const CoveredArea& covered);

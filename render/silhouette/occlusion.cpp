@@ -13,10 +13,10 @@ namespace {
 
 using dem::Vector;
 
-/// Drawn edges may be off by less than this, pixels.
+/// Bound on the error of drawn edges, pixels.
 constexpr double kSafety_px = 1;
 
-/// How often the surface winds round the origin: 1 inside. Source: Van Oosterom & Strackee, The
+/// Winding number of the surface about the origin: 1 inside. Source: Van Oosterom & Strackee, The
 /// solid angle of a plane triangle, IEEE Trans. Biomed. Eng. BME-30 (1983) 125-126, eq. (8).
 double winding(const dem::Mesh& mesh) {
   double solid_angle = 0;
@@ -33,7 +33,7 @@ double winding(const dem::Mesh& mesh) {
 }
 
 double mesh_core_m(const dem::Mesh& mesh) {
-  constexpr double kSlack = .01;  // open surfaces wind round a point by any part of 1
+  constexpr double kSlack = .01;  // open surfaces can have any winding number
   if (std::abs(winding(mesh) - 1) > kSlack) return 0;
   double nearest2 = std::numeric_limits<double>::max();
   for (const auto& [i, j, k] : mesh.triangles) {

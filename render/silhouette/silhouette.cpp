@@ -16,10 +16,10 @@ namespace {
 using dem::Vector;
 using vision::Point;
 
-/// Spheres are drawn as polyhedra this close, pixels.
+/// Tolerance of the polyhedra drawn for spheres, pixels.
 constexpr double kSphereTolerance_px = 0.01;
 
-/// The lowest y (uppermost point) in the middle of each column.
+/// The smallest y (uppermost point) at the centre of each column.
 class Columns {
  public:
   explicit Columns(int width)
@@ -37,7 +37,7 @@ class Columns {
     }
   }
 
-  /// Whether something as high as `y` or lower changes nothing from one x to the other.
+  /// Whether something no higher than `y` changes nothing between the two x.
   bool hides(double y, double from_x, double to_x) const {
     const double end = static_cast<double>(top_.size());
     const auto first = static_cast<std::ptrdiff_t>(std::clamp(std::floor(from_x), 0.0, end));
@@ -58,7 +58,7 @@ class Columns {
   std::vector<double> top_;
 };
 
-/// Whether a grain that lies there lies below what is there, however it is turned.
+/// Whether a grain at that place lies below the edge so far, whatever its orientation.
 bool is_hidden(const Columns& columns, const View& view, const Vector& place, double reach_m) {
   double top = std::numeric_limits<double>::infinity(), left = top, right = -top, bottom = -top;
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -71,12 +71,12 @@ bool is_hidden(const Columns& columns, const View& view, const Vector& place, do
     top = std::min(top, point->y);
     bottom = std::max(bottom, point->y);
   }
-  constexpr double kBend = .25;  // far more than a lens bends a grain's box / its size
+  constexpr double kBend = .25;  // far more than lens distortion of a grain's box / its size
   const double slack_px = view.k1 != 0 || view.k2 != 0 ? kBend * (right - left + bottom - top) : 0;
   return columns.hides(top - slack_px, left - slack_px, right + slack_px);
 }
 
-/// From the highest down, so that most are found to be hidden.
+/// Highest first, so that most of the others are found to be hidden.
 std::vector<PlacedGrain> highest_first(std::vector<PlacedGrain> grains, const View& view) {
   const auto down = [&view](const PlacedGrain& grain) {
     return view.in_camera(grain.pose.position).y();
@@ -96,7 +96,7 @@ void add_mesh(Columns& columns, const View& view, const PlacedGrain& grain, cons
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& from = places[static_cast<std::size_t>(triangle[k])];
       const auto& to = places[static_cast<std::size_t>(triangle[(k + 1) % 3])];
-      // Every edge belongs to two triangles: one of them is enough.
+      // Every edge belongs to two triangles: adding it once suffices.
       if (triangle[k] < triangle[(k + 1) % 3] && from && to) columns.add_edge(*from, *to);
     }
   }
@@ -144,7 +144,7 @@ namespace {
 
 constexpr std::uint8_t kGroundGrey = 128;
 
-/// All below the ground line that shows no grain.
+/// Everything below the ground line that shows no grain.
 void paint_ground(vision::Picture& picture, const vision::Segment& ground) {
   const double slope = (ground.to.y - ground.from.y) / (ground.to.x - ground.from.x);
   for (int x = 0; x < picture.width; ++x) {

@@ -10,8 +10,8 @@
 
 namespace repose::render {
 
-/// Upper edge of all grains in the middle of each pixel column that shows any, left to right, at
-/// most the picture's width. Of whole meshes and of spheres finer than any picture.
+/// Upper edge of all grains at the centre of each pixel column that shows any, left to right,
+/// within the picture's width. Uses full meshes, and spheres finer than any picture.
 std::vector<vision::Point> upper_edge(const Scene& scene, const View& view, Shown shown);
 
 /// The grains' mask as a picture: black on white.

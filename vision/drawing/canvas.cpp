@@ -18,7 +18,7 @@ namespace repose::vision {
 
 double drawing_scale(const Picture& picture) {
   constexpr int kSmallestSide = 800;  // px; smaller pictures are enlarged by a whole number
-  constexpr int kLargestSide = 2400;  // px; more than a page of a paper can show
+  constexpr int kLargestSide = 2400;  // px; more than a printed page can show
   const int longest = std::max(picture.width, picture.height);
   if (longest > kLargestSide) return static_cast<double>(kLargestSide) / longest;
   return longest < kSmallestSide ? (kSmallestSide + longest - 1) / longest : 1;
@@ -35,7 +35,7 @@ cv::Mat scaled(const Picture& picture, double scale) {
 namespace {
 
 constexpr int kFilled = -1;
-constexpr double kLetterPart = 0.78;  // of a line's height; below it hang the tails of g and y
+constexpr double kLetterPart = 0.78;  // of a line's height; the rest is for descenders
 
 int letter_height(int height) { return std::max(1, cvRound(kLetterPart * height)); }
 
@@ -63,7 +63,7 @@ constexpr int kStrokes = cv::FONT_HERSHEY_SIMPLEX;
 int stroke_thickness(int height) { return std::max(1, height / 12); }
 
 double stroke_scale(int height) {
-  constexpr double kCapitalPart = 0.75;  // of a font's size; OpenCV asks for the capitals' height
+  constexpr double kCapitalPart = 0.75;  // of a font's size; OpenCV takes the height of capitals
   return cv::getFontScaleFromHeight(kStrokes, cvRound(kCapitalPart * letter_height(height)),
                                     stroke_thickness(height));
 }
@@ -116,7 +116,7 @@ std::vector<std::string> Lettering::wrap(const std::string& text, int height, in
   const auto fits = [&](const std::string& line) { return width(line, height) <= max_width; };
   std::vector<std::string> lines;
   for (const std::string& line : base::wrapped(text, fits)) {
-    std::string part;  // of a word that is wider alone
+    std::string part;  // of a word wider than a line
     for (const char byte : line) {
       const bool is_full = !part.empty() && base::starts_a_letter(byte) && !fits(line) &&
                            width(part + 'm', height) > max_width;
@@ -132,10 +132,10 @@ namespace {
 
 constexpr int kFractionBits = 4;  // OpenCV draws at sixteenths of a pixel
 
-/// The pieces of a path that a pen leaves which is down for `dash` and up for as long.
+/// The dashes of a path; dashes and gaps are `dash` long.
 std::vector<Path> dashes_of(const Path& path, double dash) {
   std::vector<Path> dashes;
-  double left = 0;  // of the dash or gap
+  double left = 0;  // of the current dash or gap
   bool is_down = false;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const cv::Point2d from = path[i - 1], to = path[i];
@@ -190,7 +190,7 @@ void Canvas::draw_once(const Path& path, const cv::Scalar& colour, int thickness
   std::vector<cv::Point> points;
   points.reserve(path.size());
   for (const cv::Point2d& point : path) {
-    // OpenCV counts from the centre of the first pixel, we from its corner.
+    // OpenCV's origin is the centre of the first pixel, ours its corner.
     points.emplace_back(cvRound((point.x - 0.5) * (1 << kFractionBits)),
                         cvRound((point.y - 0.5) * (1 << kFractionBits)));
   }

@@ -13,7 +13,7 @@
 #include "base/units.h"
 #include "vision/picture/picture.h"
 
-/// Colours and words that marks and caption share.
+/// Colours and text shared by marks and captions.
 
 namespace cv::freetype {
 class FreeType2;
@@ -21,7 +21,7 @@ class FreeType2;
 
 namespace repose::vision {
 
-/// Blue, green, red. Okabe and Ito's set, which colour-blind people tell apart.
+/// Blue, green, red. Okabe and Ito's colour-blind safe set.
 inline const cv::Scalar kOrange{0, 159, 230};
 inline const cv::Scalar kSkyBlue{233, 180, 86};
 inline const cv::Scalar kYellow{66, 228, 240};
@@ -31,7 +31,7 @@ inline const cv::Scalar kWhite{255, 255, 255};
 inline const cv::Scalar kGrey{190, 190, 190};
 inline const cv::Scalar kDark{28, 24, 22};
 
-/// "23.4° ± 0.5°"; a second decimal when the first one of the interval would say nothing.
+/// "23.4° ± 0.5°"; two decimals if the interval is below 0.1°.
 inline std::string angle_text(double angle_rad, std::optional<double> uncertainty_rad) {
   if (!uncertainty_rad) return fmt::format("{:.1f}°", to_degrees(angle_rad));
   const double uncertainty_deg = to_degrees(*uncertainty_rad);
@@ -42,30 +42,30 @@ inline std::string angle_text(double angle_rad, std::optional<double> uncertaint
 
 inline constexpr int kSmallestCaption = 640;  ///< px wide, beneath narrow pictures
 
-/// How many times larger to draw a picture, so that lines and letters suit it: whole numbers keep
-/// the pixels of small pictures square.
+/// Scale at which to draw a picture so that lines and letters suit it: whole numbers keep the
+/// pixels of small pictures square.
 double drawing_scale(const Picture& picture);
 
 cv::Mat scaled(const Picture& picture, double scale);
 
-/// Where systems keep a font that has degree and plus-minus signs.
+/// Common paths of fonts that have degree and plus-minus signs.
 std::span<const std::filesystem::path> usual_fonts();
 
-/// Draws text. With the first font of a list that is there; with OpenCV's own strokes, which are
-/// plain ASCII, when none is.
+/// Draws text with the first font of a list that exists, or else with OpenCV's own strokes, which
+/// are plain ASCII.
 class Lettering {
  public:
   explicit Lettering(std::span<const std::filesystem::path> fonts = usual_fonts());
 
-  /// Width of a line of text, of letters `height` pixels high with all that sticks out.
+  /// Width of a line of text whose letters are `height` pixels high, including ascenders and
+  /// descenders.
   int width(const std::string& text, int height) const;
 
   /// Draws a line of text; `top_left` is the corner of its box of width() x `height`.
   void draw(cv::Mat& image, const std::string& text, cv::Point top_left, int height,
             const cv::Scalar& colour) const;
 
-  /// The text in lines that are not wider than `max_width`, broken at spaces; a word that is
-  /// wider alone is broken anywhere.
+  /// The text in lines at most `max_width` wide, broken at spaces; a wider word is broken anywhere.
   std::vector<std::string> wrap(const std::string& text, int height, int max_width) const;
 
  private:
@@ -74,13 +74,13 @@ class Lettering {
 
 using Path = std::vector<cv::Point2d>;
 
-/// An image that shows a picture enlarged `scale` times, with the sizes of strokes and letters that
-/// suit it. Lines have a halo, so that they show on any ground.
+/// An image that shows a picture enlarged `scale` times, with stroke and letter sizes to match.
+/// Lines have a halo, so that they are visible on any background.
 class Canvas {
  public:
   Canvas(cv::Mat& image, double scale, const cv::Scalar& halo = kDark);
 
-  /// Point of the picture that lies in the image's top left corner; (0, 0) before.
+  /// Point of the picture at the image's top left corner; initially (0, 0).
   void set_corner(const Point& corner) { corner_ = corner; }
 
   cv::Mat& image() const { return image_; }
@@ -92,7 +92,7 @@ class Canvas {
   Path path_of(const std::vector<Point>& points) const;
 
   void draw(const Path& path, const cv::Scalar& colour, double weight, bool closed = false) const;
-  /// Dashes and gaps are `dash` long, which is a part of the image's size.
+  /// Dashes and gaps are `dash` long, as a fraction of the image's size.
   void draw_dashed(const Path& path, const cv::Scalar& colour, double weight,
                    double dash = 0.012) const;
 
@@ -106,7 +106,7 @@ class Canvas {
   Point corner_;
 };
 
-/// A text of a legend; with a heap's line before it where `heap` is 0 or 1.
+/// A text of a legend, with a heap's line before it if `heap` is 0 or 1.
 struct TextRow {
   std::string text;
   cv::Scalar colour;

@@ -52,7 +52,7 @@ std::string difference_text(const std::optional<AngleDifference>& angle, double 
   const char* verdict = angle->verdict == Agreement::equivalent  ? "equivalent"
                         : angle->verdict == Agreement::different ? "different"
                                                                  : "cannot tell";
-  // Adding 0 makes a rounded -0.0 one without a sign.
+  // Adding 0 turns a rounded -0.0 into 0.0.
   const auto tenths = [](double rad) { return std::round(10 * to_degrees(rad)) / 10 + 0; };
   return fmt::format("angle difference {:.1f}° (95 %: {:.1f} to {:.1f}°): {} · margin {:g}°",
                      tenths(angle->difference_rad), tenths(angle->interval_rad[0]),

@@ -8,8 +8,8 @@
 #include "vision/compare/heap_comparison.h"
 #include "vision/drawing/canvas.h"
 
-/// How the two heaps of a comparison are told apart, in chart and legend: by the line's kind first,
-/// so that a black-and-white print will do. And the words that its figures share.
+/// How chart and legend distinguish the two heaps of a comparison: primarily by line style, so that
+/// black-and-white prints work. Also text that the figures share.
 namespace repose::vision {
 
 inline const cv::Scalar kInk{30, 30, 30};
@@ -21,10 +21,10 @@ void draw_heap_line(const Canvas& canvas, const Path& path, std::size_t heap);
 /// A bar of a round length in the image's upper left corner.
 void draw_scale_bar(const Canvas& canvas, double px_per_m, const Lettering& lettering);
 
-/// "4.1 mm", or a part of what both heaps were made equal in.
+/// "4.1 mm", or a fraction of the quantity in which both heaps were made equal.
 std::string length_text(double length, LengthUnit unit);
 
-/// The difference of two angles with its interval and verdict, or that there is none.
+/// The difference of two angles with its interval and verdict, or a note that there is none.
 std::string difference_text(const std::optional<AngleDifference>& angle, double margin_rad);
 
 }  // namespace repose::vision

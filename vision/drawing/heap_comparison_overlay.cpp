@@ -53,13 +53,13 @@ cv::Mat draw_legend(int width, const HeapComparison& comparison,
 
 constexpr int kWidth = 1400;  // px of the chart
 
-constexpr int kHighest = 1400;  // px; only a tower of a heap would be higher
+constexpr int kHighest = 1400;  // px; only an extremely tall heap would need more
 
-constexpr double kRoundOutlines = 0.08;  // round the outlines, of their width
+constexpr double kRoundOutlines = 0.08;  // margin around the outlines, of their width
 
-constexpr double kFaded = 0.3;  // of the picture's contrast that is left
+constexpr double kFaded = 0.3;  // remaining fraction of the picture's contrast
 
-/// From places in the comparison's unit to the first picture.
+/// Maps positions in the comparison's unit to the first picture.
 class Stage {
  public:
   Stage(const ReposeAngle& first, const HeapComparison& comparison)
@@ -89,7 +89,7 @@ class Stage {
   double sin_ = 0;
 };
 
-/// The upper edge, and down to the ground where the foot is seen.
+/// The upper edge, and down to the ground if the foot is visible.
 std::vector<OutlinePoint> drawn_outline(const HeapComparison& comparison, std::size_t heap) {
   std::vector<OutlinePoint> outline = comparison.outlines[heap];
   const OutlinePoint first = outline.front();
@@ -98,7 +98,7 @@ std::vector<OutlinePoint> drawn_outline(const HeapComparison& comparison, std::s
   return outline;
 }
 
-/// The part of the picture that is shown [px].
+/// The visible part of the picture [px].
 cv::Rect2d shown_part(const Stage& stage, const HeapComparison& comparison) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   double left = kFar, right = -kFar, top = kFar, bottom = -kFar;
@@ -118,7 +118,7 @@ cv::Rect2d shown_part(const Stage& stage, const HeapComparison& comparison) {
   return {left - margin, top - margin, right - left + 2 * margin, bottom - top + 2 * margin};
 }
 
-/// The grey picture's part at `scale`, most of its contrast taken out towards white.
+/// The part of the picture in grey at `scale`, faded towards white.
 cv::Mat faded(const Picture& picture, const cv::Rect2d& part, double scale, cv::Size size) {
   cv::Mat chart(size, CV_8UC3, kWhite);
   const cv::Point first(static_cast<int>(std::floor(std::max(0.0, part.x))),
@@ -165,8 +165,8 @@ void draw_ground(const Canvas& canvas, const Stage& stage, const HeapComparison&
               kFaint, 0.4);
 }
 
-/// Both outlines, ground line, axis and, where there is a scale, a bar of known length, on the
-/// faded first picture.
+/// Both outlines, ground line, axis and, if there is a scale, a scale bar, on the faded first
+/// picture.
 cv::Mat draw_chart(const Picture& first, const ReposeAngle& first_measured,
                    const HeapComparison& comparison, const Lettering& lettering) {
   const Stage stage(first_measured, comparison);

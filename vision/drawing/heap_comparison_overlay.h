@@ -8,15 +8,15 @@
 
 namespace repose::vision {
 
-/// What a comparison does not know of itself.
+/// What the comparison itself does not contain.
 struct ComparisonOverlayNotes {
-  std::array<std::string, 2> titles;  ///< the pictures' names
+  std::array<std::string, 2> titles;  ///< names of the pictures
   double margin_rad = 0;              ///< CompareOptions::margin_rad
 };
 
-/// Both outlines on the first picture, which is faded: the first heap's as a solid line, the second
-/// one's dashed, aligned and in the same scale; a legend below with the numbers and the verdict.
-/// Can be read in black and white. Cut to the heaps; white where the first picture ends.
+/// Both outlines on the faded first picture, the first heap's solid, the second one's dashed,
+/// aligned and at the same scale; below, a legend with the numbers and the verdict. Legible in
+/// black and white. Cropped to the heaps; white beyond the first picture.
 /// @throws base::InputError  the comparison was refused, or the picture has no pixels.
 Picture draw_comparison(const Picture& first, const ReposeAngle& first_measured,
                         const HeapComparison& comparison, const ComparisonOverlayNotes& notes);

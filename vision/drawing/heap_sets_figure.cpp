@@ -20,7 +20,7 @@ namespace repose::vision {
 
 namespace {
 
-/// An axis from one whole degree to another.
+/// An axis between two whole degrees.
 struct Axis {
   double from_deg = 0;
   double to_deg = 1;
@@ -90,8 +90,8 @@ void draw_axis(const Canvas& canvas, const Axis& axis, double y, int letters,
   }
 }
 
-/// Above an axis of degrees, a row for each set: every heap's angle as a circle, the mean as a bar
-/// with its 95 % interval.
+/// One row per set above an axis of degrees: every heap's angle as a circle, the mean as a bar with
+/// its 95 % interval.
 cv::Mat draw_angle_strip(int width, const std::array<SetOfHeaps, 2>& sets,
                          const Lettering& lettering) {
   const int letters = std::max(14, width / 60);
@@ -111,7 +111,7 @@ constexpr double kBeyond = 0.06;  // of the outlines' width
 
 constexpr double kBandOpacity = 0.3;  // of its colour
 
-/// From places along the ground and heights above it to the chart.
+/// Maps positions along the ground and heights above it to the chart.
 class Chart {
  public:
   Chart(int width, const SetComparison& comparison) {

@@ -55,7 +55,7 @@ std::string window_text(const std::array<double, 2>& window) {
   return fmt::format("{:.0f}–{:.0f} %", 100 * window[0], 100 * window[1]);
 }
 
-/// The window, and of each side of which less was fitted, what that is.
+/// The window, and the window used on each side where it differs.
 std::string windows_of(const ReposeAngle& measured) {
   std::string text = fmt::format("window {} of the height", window_text(measured.window));
   if (!base::is_usual_definition(measured.definition)) text = measured.definition + ", " + text;
@@ -116,7 +116,7 @@ void draw_badge(cv::Mat& bar, const Badge& badge, cv::Point top_left, int height
   lettering.draw(bar, badge.text, top_left + cv::Point(pad, height / 6), height, kWhite);
 }
 
-/// A bar of `width` pixels with the result in words, as high as they need.
+/// A bar `width` pixels wide, as high as needed, with the result in words.
 cv::Mat draw_caption(int width, const ReposeAngle& measured, const OverlayNotes& notes,
                      const Lettering& lettering) {
   const int height = std::max(14, width / 46);
@@ -141,7 +141,7 @@ cv::Mat draw_caption(int width, const ReposeAngle& measured, const OverlayNotes&
   return bar;
 }
 
-constexpr double kDimmed = 0.7;  // what is left of the light outside the heap
+constexpr double kDimmed = 0.7;  // remaining brightness outside the heap
 
 void dim_outside(const Canvas& canvas, const std::vector<Point>& outline) {
   if (outline.size() < 3) return;
@@ -165,7 +165,7 @@ Path arc(cv::Point2d centre, double radius, double from_rad, double to_rad) {
   return path;
 }
 
-/// From its top left corner clockwise.
+/// Clockwise from the top left corner.
 Path corners_of(const Canvas& canvas, const Box& box) {
   const double left = box.x, top = box.y;
   const double right = left + box.width, bottom = top + box.height;
@@ -179,7 +179,7 @@ void draw_excluded(const Canvas& canvas, const Box& box) {
   canvas.draw({corners[1], corners[3]}, kGrey, 0.7);
 }
 
-/// A place that a person has pointed at: a ring on the heap, a cross beside it.
+/// A place marked by the user: a ring on the heap, a cross beside it.
 void draw_place(const Canvas& canvas, const Point& place, bool is_heap) {
   const cv::Point2d at = canvas.at(place);
   const double reach = canvas.length(0.01);
@@ -202,7 +202,7 @@ void draw_hints(const Canvas& canvas, const Hints& hints) {
   for (const Point& place : hints.drop) draw_place(canvas, place, false);
 }
 
-/// Where the lines a and b through two points each meet.
+/// Intersection of the lines a and b, each given by two points.
 std::optional<cv::Point2d> meeting(cv::Point2d a0, cv::Point2d a1, cv::Point2d b0, cv::Point2d b1) {
   const cv::Point2d a = a1 - a0, b = b1 - b0;
   const double cross = a.cross(b);
@@ -226,8 +226,7 @@ FlankLine flank_line(const Canvas& canvas, const Segment& line, bool is_left) {
   return result;
 }
 
-/// The angle between the ground and the line: an arc around the point where they meet, inside the
-/// heap.
+/// The angle between the ground and the line: an arc around their intersection, inside the heap.
 void draw_angle(const Canvas& canvas, const FlankLine& flank, cv::Point2d foot,
                 cv::Point2d along_ground) {
   const cv::Point2d uphill = flank.high - flank.low;
@@ -238,7 +237,7 @@ void draw_angle(const Canvas& canvas, const FlankLine& flank, cv::Point2d foot,
   canvas.draw(arc(foot, radius, from_rad, from_rad + turn_rad), flank.colour, 0.7);
 }
 
-/// Where the flank's line meets the ground; empty when there is no ground or that is far away.
+/// Where the flank's line meets the ground; std::nullopt if there is no ground or it is far away.
 std::optional<cv::Point2d> foot_of(const Canvas& canvas, const FlankLine& flank,
                                    const std::optional<Segment>& ground) {
   if (!ground) return std::nullopt;
@@ -265,7 +264,7 @@ void draw_line(const Canvas& canvas, const FlankLine& flank, const std::optional
   }
 }
 
-/// A line of text on a dark plate, moved into the image where it would stick out.
+/// A line of text on a dark plate, moved into the image if it would extend beyond it.
 void draw_label(const Canvas& canvas, const Lettering& lettering, const std::string& text,
                 cv::Point2d anchor, bool ends_at_anchor, const cv::Scalar& colour) {
   const int height = std::max(12, cvRound(canvas.length(0.042)));
@@ -295,7 +294,7 @@ void label_flank(const Canvas& canvas, const Lettering& lettering, const Flank& 
              flank.is_left, flank.colour);
 }
 
-/// The other reading of a side with an apron: its line if the apron counted in full.
+/// The alternative result for a side with an apron: its line with the apron fully weighted.
 void draw_apron(const Canvas& canvas, const Lettering& lettering, const FlankApron& apron,
                 bool is_left) {
   constexpr double kShortDash = 0.006, kBelow = 0.07;

@@ -23,7 +23,7 @@ constexpr int kPlanSide = 640, kChartWidth = 640, kChartHeight = 320, kLetters =
 constexpr int kContours = 10;
 const cv::Scalar kUnseen{225, 225, 225};
 
-/// Pale ground to a dark crest.
+/// From a pale base to a dark crest.
 cv::Vec3b height_colour(double part) {
   const double t = std::clamp(part, 0.0, 1.0);
   const cv::Scalar low{235, 245, 250}, high{30, 90, 150};

@@ -8,15 +8,15 @@
 
 namespace repose::vision {
 
-/// A place where a slope was looked for.
+/// A place where a slope was measured.
 struct Slope {
   std::string name;
-  std::optional<double> angle_rad;  ///< none: there is nothing that slopes
-  Segment line;                     ///< that was fitted to it [px of the picture]
+  std::optional<double> angle_rad;  ///< std::nullopt: no slope found
+  Segment line;                     ///< fitted to it [px of the picture]
 };
 
 /// The picture with the lines of its slopes and their angles drawn into it.
-/// @param title  what the picture shows
+/// @param title  caption of the picture
 /// @throws base::InputError  the picture has no pixels.
 Picture draw_slopes_overlay(const Picture& picture, const std::vector<Slope>& slopes,
                             const std::string& title);

@@ -48,7 +48,7 @@ void draw_label(const Canvas& canvas, const Point& point, const std::string& tex
   at.x = std::clamp(at.x, 0, std::max(0, image.width - size.width));
   at.y = std::clamp(at.y, 0, std::max(0, image.height - size.height));
   const int first_column = at.x;
-  // Each time past one of them, or to the next row at the image's edge: it ends.
+  // Terminates: each move passes a label, or goes to the next row at the image's edge.
   for (std::size_t k = 0; k < taken.size();) {
     if ((taken[k] & cv::Rect(at, size)).empty()) {
       ++k;

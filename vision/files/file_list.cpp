@@ -50,7 +50,7 @@ bool have_same_bytes(const fs::path& a, const fs::path& b) {
   return first.eof() && second.eof();
 }
 
-/// None where it is no file with bytes in it.
+/// std::nullopt unless it is a regular, non-empty file.
 std::optional<std::uintmax_t> size_of(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return std::nullopt;
@@ -94,9 +94,9 @@ namespace fs = std::filesystem;
 /// Pictures, or films, or both.
 struct FileKind {
   std::string_view name;                         ///< "pictures"
-  std::string_view done;                         ///< to one: "measured"
+  std::string_view done;                         ///< past participle: "measured"
   std::string_view usual;                        ///< ".jpg, .heic, .png, .tif, .bmp or .webp"
-  std::span<const std::string_view> endings;     ///< all, small
+  std::span<const std::string_view> endings;     ///< all, in lower case
   std::span<const std::string_view> more = {};   ///< likewise
   std::span<const std::string_view> scans = {};  ///< likewise
 };
@@ -141,9 +141,9 @@ bool has_ending(const fs::path& file, const FileKind& kind) {
   return has(kind.endings) || has(kind.more) || has(kind.scans);
 }
 
-/// Adds the files of a folder whose names are as wanted, sorted.
-/// @param named  by the user: the folder, or a pattern in it
-/// @param none   what is wrong where there is none
+/// Adds the wanted files of a folder, sorted.
+/// @param named  what the user named: the folder, or a pattern in it
+/// @param none   the error if there is none
 template <typename Wanted>
 void add_files(const fs::path& named, const fs::path& folder, const Wanted& is_wanted,
                const base::Fault& none, FileList& list) {
@@ -305,7 +305,7 @@ fs::path without_slash(const std::string& name) {
 
 fs::path identity(const fs::path& file) {
   std::error_code error;
-  // Made absolute first: of a relative name that does not exist nothing would be resolved.
+  // Made absolute first: a relative name that does not exist would not be resolved.
   const fs::path canonical = fs::weakly_canonical(fs::absolute(file), error);
   return error ? file : canonical;
 }

@@ -54,7 +54,7 @@ FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options,
 
 namespace {
 
-/// Whether a multiple of the step is nearest to this frame, the earlier of two as near.
+/// Whether some multiple of the step is nearest to this frame; of two equally near, the earlier.
 bool is_nearest_to_one(const std::vector<double>& times_s, std::size_t frame, double step_s) {
   if (frame == 0) return true;
   constexpr double kRounding_s = 1e-9;
@@ -71,7 +71,7 @@ class FrameSeries::Decoder {
  public:
   explicit Decoder(const FilmFile& file) : film_(file) {}
 
-  /// The frame of this number, which is none that was passed.
+  /// The frame with this number, which must not have been passed yet.
   std::optional<Picture> decode(std::size_t number) {
     for (; next_ < number; ++next_) {
       if (!film_.skip(frame_)) return std::nullopt;

@@ -18,38 +18,38 @@
 
 namespace repose::vision {
 
-/// Of names of films, in small letters.
+/// File name endings of films, in lower case.
 inline constexpr std::array<std::string_view, 7> kFilmEndings{".mp4", ".m4v",  ".mov", ".avi",
                                                               ".mkv", ".webm", ".gif"};
 
-/// Whether a file is taken for a film: by its name.
+/// Whether a file's name has the ending of a film.
 bool has_film_ending(const std::filesystem::path& file);
 
-/// The part of a film that one picture was made of.
+/// The part of a film from which one picture was made.
 struct FilmStretch {
-  double from_s = 0;  ///< by the film's own time stamps, from its first frame on
+  double from_s = 0;  ///< by the film's own time stamps, from its first frame
   double to_s = 0;
-  int frames = 0;  ///< in the picture
+  int frames = 0;  ///< averaged in the picture
 };
 
 struct FilmAngle {
-  SizedHeap heap;   ///< of the picture; or why the film has none, and what is to be known of it
-  Picture picture;  ///< the heap at rest; a late frame where nothing in it is
-  std::optional<FilmStretch> stretch = {};  ///< what the picture is the mean of; none: no rest
+  SizedHeap heap;   ///< of the picture, or why there is none; with warnings about the film
+  Picture picture;  ///< the heap at rest; a late frame if nothing comes to rest
+  std::optional<FilmStretch> stretch = {};  ///< whose mean the picture is; std::nullopt: no rest
   FilmFacts film = {};
   std::vector<double> times_s = {};  ///< of each frame
 };
 
-/// Finds the last second in which nothing moves, and measures the mean of its frames as any other
-/// picture, with a lens, a scale or a board. What sensors, lamps and codecs change, and small
-/// things that change all through the film above or below the scene (a timer), are no movement; nor
-/// is what lies in the options' excluded boxes or outside their box around the heap. A hand that
-/// comes in from the left, the right or below afterwards does no harm; a heap that then goes on
-/// growing is refused.
+/// Finds the last second in which nothing moves, and measures the mean of its frames like any other
+/// picture, with a lens, a scale or a board. Changes due to sensors, lamps and codecs do not count
+/// as movement, nor do small things that change throughout the film above or below the scene (a
+/// timer), nor anything in the options' excluded boxes or outside their box around the heap. A hand
+/// that enters from the left, the right or below afterwards does no harm; a heap that continues to
+/// grow then is refused.
 ///
-/// Looks through the film three times, and keeps no frames: memory does not grow with its length.
-/// @param progress  told which fraction of the work is done, from 0 to 1; may throw to stop it
-/// @throws base::InputError  "FILE: what. Fix: ...": it is no film that can be read; or as
+/// Decodes the film three times and stores few frames: memory does not grow with its length.
+/// @param progress  called with the completed fraction, from 0 to 1; may throw to cancel
+/// @throws base::InputError  "FILE: what. Fix: ...": it is not a readable film; or as
 ///   measure_sized_heap().
 FilmAngle measure_film(const FilmFile& file, const MeasureOptions& options = {},
                        const ScaleOptions& scale = {},
@@ -61,8 +61,7 @@ struct TimedPicture {
   Picture picture;
 };
 
-/// Of a film the frames nearest to 0, a step, two steps ... up to its last frame; each once, in
-/// order.
+/// A film's frames nearest to 0, one step, two steps ... up to the last frame; each once, in order.
 class FrameSeries {
  public:
   /// @param times_s  of each frame, see FilmAngle
@@ -74,18 +73,18 @@ class FrameSeries {
   FrameSeries(FrameSeries&&) = delete;
   FrameSeries& operator=(FrameSeries&&) = delete;
 
-  /// Of the frames that next() gives.
+  /// Times of the frames that next() returns.
   const std::vector<double>& times_s() const { return taken_s_; }
-  /// None at the end.
+  /// std::nullopt at the end.
   std::optional<TimedPicture> next();
 
  private:
   class Decoder;
 
   std::unique_ptr<Decoder> decoder_;
-  std::vector<std::size_t> taken_;  ///< which frames
+  std::vector<std::size_t> taken_;  ///< frame numbers
   std::vector<double> taken_s_;     ///< their times
-  std::size_t done_ = 0;            ///< of those taken
+  std::size_t done_ = 0;            ///< how many of those were returned
 };
 
 }  // namespace repose::vision

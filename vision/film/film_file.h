@@ -8,24 +8,24 @@
 
 namespace repose::vision {
 
-/// Where a film is: a file, or a folder that holds its frames as numbered pictures.
+/// Location of a film: a file, or a folder that contains its frames as numbered pictures.
 struct FilmFile {
-  // NOLINTNEXTLINE(google-explicit-constructor): a place alone is a film too
+  // NOLINTNEXTLINE(google-explicit-constructor): a path alone is a film too
   FilmFile(std::filesystem::path place) : path(std::move(place)) {}
   FilmFile(std::filesystem::path place, std::optional<double> rate,
            const std::optional<Lens>& camera_lens = {}, int clockwise_deg = 0)
       : path(std::move(place)), frames_per_s(rate), lens(camera_lens), turn_deg(clockwise_deg) {}
 
   std::filesystem::path path;
-  /// Of a folder's pictures, which do not say it; files say it themselves.
+  /// For a folder of pictures, which do not contain it; film files do.
   std::optional<double> frames_per_s = {};
-  /// Whose distortion is taken out of each frame as it is read.
+  /// Its distortion is removed from each frame as it is read.
   std::optional<Lens> lens = {};
-  /// By how much each frame is turned as it is read, before that; of kTurns_deg, or 0.
+  /// Each frame is first turned clockwise by this much; one of kTurns_deg, or 0.
   int turn_deg = 0;
 };
 
-/// What a film is, whatever it shows.
+/// Properties of a film, independent of its content.
 struct FilmFacts {
   int width = 0;
   int height = 0;

@@ -22,7 +22,7 @@ FilmFrames film_frames(const FilmFile& file, const FilmFramesOptions& options) {
   FilmReader reader(file);
   FilmFrame frame;
   std::size_t step = 1;
-  // What does not count is skipped, which is faster than decoding it.
+  // Frames that are not kept are skipped, which is faster than converting them.
   for (std::size_t number = 0; number % step == 0 ? reader.next(frame) : reader.skip(frame);
        ++number) {
     if (number % step != 0) continue;

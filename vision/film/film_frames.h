@@ -8,7 +8,7 @@
 
 namespace repose::vision {
 
-/// Frames of a film, reduced, to be looked at in any order.
+/// Frames of a film, reduced, for random access.
 struct FilmFrames {
   int width = 0;  ///< of the film's own frames
   int height = 0;
@@ -18,10 +18,10 @@ struct FilmFrames {
 
 struct FilmFramesOptions {
   int side_px = 800;             ///< longest side of a reduced frame, at most
-  std::size_t max_frames = 600;  ///< of more every second counts, or every fourth ...
+  std::size_t max_frames = 600;  ///< if there are more, every second is kept, or every fourth ...
 };
 
-/// @throws base::InputError  "FILE: what. Fix: ...": it is no film that can be read.
+/// @throws base::InputError  "FILE: what. Fix: ...": it is not a readable film.
 FilmFrames film_frames(const FilmFile& file, const FilmFramesOptions& options = {});
 
 }  // namespace repose::vision

@@ -50,7 +50,7 @@ std::string small_ending(const fs::path& file) {
 
 /// A name split at the last number in it.
 struct NumberedName {
-  std::string others;  ///< what is before and behind the number
+  std::string others;  ///< the text before and after the number
   std::int64_t number = 0;
 };
 
@@ -136,7 +136,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Two pictures of 8K: what is decoded is kept several times.
+/// Two 8K pictures: decoded frames are held several times.
 constexpr double kMaxFramePixels = 70e6;
 constexpr double kUsualFramesPerS = 30;
 
@@ -162,7 +162,8 @@ void check(const fs::path& file) {
   stream.read(head.data(), head.size());
   if (!stream && stream.gcount() == 0)
     base::refuse(file, "is empty or cannot be read", "copy it again.");
-  // By its first bytes: the decoder would also follow playlists to other files and places.
+  // Judged by its first bytes: the decoder would also follow playlists to other files and
+  // addresses.
   if (!is_film({head.data(), static_cast<std::size_t>(stream.gcount())})) {
     base::refuse(file, "is no film that repose reads",
                  "convert it to MP4 (H.264); MOV, AVI, MKV, WebM and GIF are read too.");
@@ -181,10 +182,10 @@ class FilmReader::Source {
   Source(Source&&) = delete;
   Source& operator=(Source&&) = delete;
 
-  /// False at the end; of a frame that is skipped only the time is set.
+  /// False at the end; for a skipped frame only the time is set.
   virtual bool next(FilmFrame& frame, bool is_skipped) = 0;
   virtual int claimed_frames() const = 0;
-  /// What times are multiples of; 0: they are as they are.
+  /// Unit of which times are multiples; 0: not rounded.
   virtual double time_unit_s() const { return 0; }
 };
 
@@ -211,7 +212,7 @@ class FilmReader::VideoSource : public FilmReader::Source {
   double time_unit_s() const override { return film_.stamp_unit_s(); }
 
  private:
-  /// Where time stamps are missing or do not advance, one frame after the other.
+  /// If time stamps are missing or do not advance, adds the nominal frame interval.
   double time_of_frame() {
     const std::optional<double> stamp_s = film_.time_stamp_s();
     if (frames_ == 0) {
@@ -233,7 +234,7 @@ class FilmReader::VideoSource : public FilmReader::Source {
   double last_s_ = 0;
 };
 
-/// Numbered pictures: a number that is missing is a frame that was dropped.
+/// Numbered pictures: a missing number is a dropped frame.
 class FilmReader::FolderSource : public FilmReader::Source {
  public:
   FolderSource(const fs::path& folder, double frames_per_s)
@@ -255,7 +256,7 @@ class FilmReader::FolderSource : public FilmReader::Source {
   std::vector<FrameFile> frames_;
   double interval_s_;
   std::size_t next_ = 0;
-  Picture picture_;  ///< what the last frame's pixels are in
+  Picture picture_;  ///< owns the last frame's pixels
 };
 
 FilmReader::FilmReader(const FilmFile& file, std::vector<double> times_s)

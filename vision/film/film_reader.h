@@ -15,30 +15,30 @@
 
 namespace repose::vision {
 
-/// A frame of a film that is a picture of its own.
+/// A frame of a film stored as a picture file.
 struct FrameFile {
   std::filesystem::path file;
-  std::int64_t place = 0;  ///< in the film, from 0 on; frames that are missing leave a gap
+  std::int64_t place = 0;  ///< in the film, from 0; missing frames leave a gap
 };
 
 /// The frames in a folder, by the numbers in their names: frame_9.png comes before frame_10.png.
-/// Hidden files and those that are no pictures by their ending do not count. Where all numbers are
-/// a multiple of a step apart, as of every tenth frame, that is one place.
+/// Hidden files and those without a picture's ending are ignored. If all numbers are a multiple of
+/// a step apart, such as every tenth frame, one step is one place.
 /// @throws base::InputError  "FOLDER: what. Rule: ... Fix: ...": no pictures, names without a
-///   number or that differ in more than that, or the same number twice.
+///   number or that differ in more than the number, or the same number twice.
 std::vector<FrameFile> frame_files(const std::filesystem::path& folder);
 
 struct FilmFrame {
-  cv::Mat bgr;        ///< upright; its memory is used again for the next frame
-  double time_s = 0;  ///< by the film's own time stamps, from the first frame on
+  cv::Mat bgr;        ///< upright; its memory is reused for the next frame
+  double time_s = 0;  ///< by the film's own time stamps, from the first frame
 };
 
 /// Reads MP4, MOV, AVI, MKV, WebM and GIF, and folders of numbered pictures.
 class FilmReader {
  public:
-  /// @throws base::InputError  "FILE: what. Fix: ...": missing, empty, no film, damaged, or of
-  /// too many pixels; of a folder, also as frame_files(), and without a frame rate.
-  /// @param times_s  of its frames, which a survey found; none: by its own time stamps
+  /// @throws base::InputError  "FILE: what. Fix: ...": missing, empty, not a film, damaged, or with
+  /// too many pixels; for a folder, also as frame_files(), and without a frame rate.
+  /// @param times_s  of its frames, as found by a survey; empty: its own time stamps
   explicit FilmReader(const FilmFile& file, std::vector<double> times_s = {});
   ~FilmReader();
   FilmReader(const FilmReader&) = delete;
@@ -46,16 +46,16 @@ class FilmReader {
   FilmReader(FilmReader&&) = delete;
   FilmReader& operator=(FilmReader&&) = delete;
 
-  /// False at the end, which is where nothing more can be decoded.
-  /// @throws base::InputError  a frame has another size than the first, or the camera's lens
-  ///   is of pictures of another shape.
+  /// False at the end, or when nothing more can be decoded.
+  /// @throws base::InputError  a frame has a different size than the first, or the camera's lens is
+  ///   for pictures with a different aspect ratio.
   bool next(FilmFrame& frame);
-  /// As next(), without the picture, which takes the larger part of the time.
+  /// As next(), without the picture, which takes most of the time.
   bool skip(FilmFrame& frame);
 
-  /// How many frames the file says it has, which need not be true; 0 where it does not say.
+  /// The number of frames that the file claims, which need not be true; 0 if it claims none.
   int claimed_frames() const;
-  /// What its time stamps are rounded to; 0 where they are not.
+  /// Unit to which its time stamps are rounded; 0 if they are not.
   double time_unit_s() const;
 
  private:
@@ -73,7 +73,7 @@ class FilmReader {
   int turn_deg_ = 0;
   std::optional<Lens> lens_;
   std::optional<LensCorrection> correction_;  ///< from the first frame on
-  cv::Mat seen_;                              ///< a frame before it was turned or corrected
+  cv::Mat seen_;                              ///< a frame before turning or correction
 };
 
 }  // namespace repose::vision

@@ -14,15 +14,15 @@ namespace repose::vision {
 
 namespace {
 
-/// Tells interlaced films: every other row of a frame was taken half a frame later, so that what
-/// moves has a comb for an edge. Where something has moved since the frame before, rows that go up
-/// and down by turns are counted.
+/// Detects interlaced films: every other row of a frame was taken half a frame later, so that
+/// moving edges are combed. Counts alternating rows where something has moved since the previous
+/// frame.
 class CombFinder {
  public:
-  /// Frames in their order; some may be left out.
+  /// Frames in order; some may be left out.
   void look(const cv::Mat& bgr);
 
-  /// Whether enough of the frames in which something moves are combed.
+  /// Whether enough of the frames with movement are combed.
   bool is_interlaced() const;
 
  private:
@@ -33,9 +33,9 @@ class CombFinder {
 
 constexpr int kMoved = 24;  ///< grey levels between two frames
 
-constexpr int kRowStep = 14;  ///< from each row of a comb to the next; noise goes on for fewer rows
+constexpr int kRowStep = 14;  ///< between rows of a comb; noise alternates over fewer rows
 
-/// Whether five rows from this one on go up and down by turns.
+/// Whether five rows, starting with this one, alternate up and down.
 bool is_comb(const cv::Mat& grey, int row, int column) {
   int before = 0;
   for (int k = 0; k < 4; ++k) {
@@ -51,7 +51,7 @@ void CombFinder::look(const cv::Mat& bgr) {
   constexpr double kCombedPart = .08;
   cv::Mat grey;
   cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
-  cv::swap(grey, before_);  // `grey` is the frame before from here on
+  cv::swap(grey, before_);  // from here on `grey` is the previous frame
   if (grey.size() != before_.size()) return;
   int moved = 0, combed = 0;
   for (int row = 0; row + kRows <= before_.rows; ++row) {
@@ -70,11 +70,11 @@ void CombFinder::look(const cv::Mat& bgr) {
 
 bool CombFinder::is_interlaced() const {
   constexpr int kFewest = 3;
-  constexpr double kPart = .3;  // of the frames in which something moves; slow things have no comb
+  constexpr double kPart = .3;  // of the frames with movement; slow movement shows no comb
   return combed_frames_ >= kFewest && combed_frames_ >= kPart * moving_frames_;
 }
 
-/// Keeps every frame, then every second, every fourth ... so that at most as many stay as fit.
+/// Keeps every frame, then every second, every fourth ... so that the number stays within a limit.
 class Samples {
  public:
   void add(const cv::Mat& frame) {
@@ -159,7 +159,7 @@ FilmSurvey survey_film(const FilmFile& file, const FilmProgress& progress) {
   Samples samples;
   CutFinder cuts;
   CombFinder combs;
-  // Of a long film it is enough to look at every fourth frame.
+  // In a long film, every fourth frame is enough.
   constexpr int kLooks = 60, kMaxStep = 4;
   const int step = std::clamp(film.claimed_frames() / kLooks, 1, kMaxStep);
   FilmFrame frame;

@@ -11,23 +11,23 @@
 
 namespace repose::vision {
 
-/// UserHints which fraction of the work is done, from 0 to 1.
+/// Called with the completed fraction, from 0 to 1.
 using FilmProgress = std::function<void(double)>;
 
-/// Fewer frames show no movement.
+/// Fewer frames cannot show movement.
 inline constexpr int kFewestFrames = 8;
 
-/// What one look through a film tells.
+/// The result of one pass through a film.
 struct FilmSurvey {
   cv::Size size;
   std::vector<double> times_s;  ///< of each frame
-  double interval_s = 0;        ///< between frames, in the median
+  double interval_s = 0;        ///< median between frames
   int claimed_frames = 0;
-  int dropped_frames = 0;          ///< that the gaps between time stamps have room for
-  bool has_variable_rate = false;  ///< gaps apart, frames do not follow evenly
+  int dropped_frames = 0;          ///< that would fit into the gaps between time stamps
+  bool has_variable_rate = false;  ///< frames are unevenly spaced, apart from gaps
   std::optional<int> cut;          ///< the first frame of another scene
   bool is_interlaced = false;
-  std::vector<cv::Mat> samples;  ///< spread evenly over the film, few whatever its length
+  std::vector<cv::Mat> samples;  ///< spread evenly over the film; few, whatever its length
 };
 
 /// @throws base::InputError  see FilmReader.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kFewestStamps = 8;
 
-/// By frames that are many apart, so that rounding hardly counts; the few gaps do not either.
+/// From frames far apart, so that rounding hardly matters; the median ignores the few gaps.
 double typical_step_s(const std::vector<double>& stamps_s) {
   const std::size_t lag = std::clamp<std::size_t>(stamps_s.size() / 4, 1, 64);
   std::vector<double> spans;
@@ -26,11 +26,11 @@ double typical_step_s(const std::vector<double>& stamps_s) {
   return *middle;
 }
 
-/// Least squares through the stamps; the grid's line, and how far they lie from it in time.
+/// Least-squares line through the stamps, and their deviations from it in time.
 struct Line {
   double at_first_s = 0;
   double step_s = 0;
-  double range_s = 0;  ///< from the earliest to the latest, against the line
+  double range_s = 0;  ///< from the earliest to the latest deviation
   double rms_s = 0;
 };
 
@@ -59,8 +59,8 @@ Line line_through(const std::vector<double>& steps, const std::vector<double>& s
   return line;
 }
 
-/// Counted from where even steps would be by now, which follows the stamps slowly: single ones may
-/// come half a step early or late.
+/// Counted against a running grid that follows the stamps slowly: single ones may be half a step
+/// early or late.
 std::vector<double> whole_steps(const std::vector<double>& stamps_s, double step_s) {
   constexpr double kFollows = .2;
   std::vector<double> steps = {0};
@@ -76,7 +76,7 @@ std::vector<double> whole_steps(const std::vector<double>& stamps_s, double step
 
 constexpr std::size_t kPartSteps = 8;
 
-/// Some steps from one frame to the next: how long they are, and how many of them are as long.
+/// Several consecutive steps: their median length, and how many are about as long.
 struct EvenSteps {
   double step_s = 0;
   int alike = 0;
@@ -99,7 +99,7 @@ std::vector<RateChange> rate_changes(const std::vector<double>& times_s) {
   constexpr double kChange = .04;
   constexpr int kMaxOdd = 2;
   std::vector<RateChange> changes;
-  int best = 0;  // alike of the change that was found last; 0: it is behind
+  int best = 0;  // even steps around the latest change; 0: it has been passed
   for (std::size_t k = kPartSteps; k + kPartSteps < times_s.size(); ++k) {
     const EvenSteps before = even_steps(times_s, k - kPartSteps);
     const EvenSteps after = even_steps(times_s, k);
@@ -132,8 +132,8 @@ std::vector<double> unrounded_times(std::vector<double> stamps_s, double unit_s)
   if (stamps_s.size() < kFewestStamps || unit_s <= 0) return stamps_s;
   const double typical_s = typical_step_s(stamps_s);
   constexpr double kFine = .02, kCoarse = .5, kRounding = 1.02;
-  // Of a fine unit nothing is to be gained; of one as long as the step itself, as AVI has it, no
-  // stamp is rounded.
+  // A fine unit needs no correction; if it is as long as the step itself, as in AVI, stamps are not
+  // rounded.
   if (unit_s < kFine * typical_s || unit_s > kCoarse * typical_s) return stamps_s;
   const std::vector<double> steps = whole_steps(stamps_s, typical_s);
   const Line line = line_through(steps, stamps_s);
@@ -144,13 +144,13 @@ std::vector<double> unrounded_times(std::vector<double> stamps_s, double unit_s)
 
 namespace {
 
-constexpr int kNoise = 12;          ///< grey levels that a pixel may change by itself
+constexpr int kNoise = 12;          ///< grey levels by which noise may change a pixel
 constexpr double kMinMoved = 1000;  ///< a grain of 12 pixels moves by one
-/// Of the change to the frames around: a repeat's at most, a moving one's at least.
+/// As fractions of the change to nearby frames: maximum for a repeat, minimum for a moving frame.
 constexpr double kRepeat = .03, kMoves = .35;
 constexpr std::size_t kAround = 6, kLongestRun = 5;
-/// Fewer may be chance: the top of a flight, or an impact, half way between two frames. Of those
-/// that move, where there is no pattern in them.
+/// Fewer may be chance: the top of a flight, or an impact, half way between two frames. The second
+/// is a fraction of the moving frames, used if there is no pattern.
 constexpr double kFewestRepeats = 4, kFewestPart = .1;
 
 enum class Kind { undecided, repeat, moving };
@@ -182,7 +182,7 @@ std::vector<Kind> kinds_of(const std::vector<double>& changes) {
   return kinds;
 }
 
-/// Of `shown` frames each pattern shows `taken` ones; the frame at a step shows the newest one.
+/// `taken` frames fill `shown` steps; each step shows the newest one.
 struct Pattern {
   int taken = 1;
   int shown = 1;
@@ -191,14 +191,14 @@ struct Pattern {
   long newest_at(double step) const {
     return static_cast<long>(std::floor((taken * step + phase + .5) / static_cast<double>(shown)));
   }
-  /// When the frame was taken that is shown at a step.
+  /// When the frame shown at a step was taken.
   double taken_at(double step) const {
     return (static_cast<double>(newest_at(step)) * shown - phase - .5) / taken;
   }
   bool repeats_at(double step) const { return newest_at(step) == newest_at(step - 1); }
 };
 
-/// The shortest pattern that tells nearly all repeats that are sure from those that are none.
+/// The shortest pattern that agrees with nearly all clear repeats and moving frames.
 std::optional<Pattern> pattern_of(const std::vector<Kind>& kinds,
                                   const std::vector<double>& steps) {
   constexpr int kLongest = 30;
@@ -227,8 +227,8 @@ std::optional<Pattern> pattern_of(const std::vector<Kind>& kinds,
   return best;
 }
 
-/// Of all parts of a frame the one in which most changes: what moves is there, and not all over, as
-/// the light of a flickering lamp.
+/// The change in the part of a frame that changes most: movement is local, unlike the light of a
+/// flickering lamp.
 double most_in_a_part(const cv::Mat& changed) {
   constexpr int kPart_px = 32;
   double most = 0;

@@ -18,7 +18,7 @@
 #include "vision/film/scene_change.h"
 #include "vision/picture/opencv.h"
 
-/// What is wrong with a film of a heap that is to come to rest.
+/// The picture of a heap at rest, and errors of its film.
 
 namespace repose::vision {
 
@@ -26,11 +26,11 @@ namespace {
 
 /// Finds the last stretch of a film in which nothing changes.
 ///
-/// Each look is compared with the one before, which shows what moves, and with the one with which
-/// its stretch begins, up to a second earlier, which shows what creeps.
+/// Each look is compared with the previous one, which reveals movement, and with the first of its
+/// stretch, up to a second earlier, which reveals creep.
 class RestFinder {
  public:
-  /// Shorter is no rest; longer is not waited for.
+  /// A rest lasts at least kMin_s; at most kWhole_s of it are used.
   static constexpr double kMin_s = .5, kWhole_s = 1;
 
   struct Stretch {
@@ -38,20 +38,20 @@ class RestFinder {
     double to_s = 0;
   };
 
-  /// @param counts  0 where changes are none of the heap's, of the frames' size or smaller; empty:
-  ///   they count everywhere
+  /// @param counts  0 where changes are not the heap's; of the frames' size or smaller; empty: they
+  ///   count everywhere
   explicit RestFinder(cv::Mat counts) : counts_(std::move(counts)) {}
 
-  /// Whether a frame of this time is to be looked at; of others there is enough in between.
+  /// Whether to look at the frame at this time: looks are a minimum interval apart.
   bool wants(double time_s) const;
   void look(const cv::Mat& frame, double time_s);
 
-  /// The last one; none where all looks changed.
+  /// The last rest; std::nullopt if there was none.
   const std::optional<Stretch>& rest() const { return rest_; }
-  /// Where something moved after it, or at the end of a film without rest, in parts of the
+  /// Where something moved after it, or at the end of a film without rest, as fractions of the
   /// picture's width and height; empty: nowhere.
   cv::Rect2d moved_part() const;
-  /// Whether all that moved after it came in from the left, the right or below.
+  /// Whether everything that moved after it came in from the left, the right or below.
   bool only_came_in() const;
 
  private:
@@ -64,7 +64,7 @@ class RestFinder {
   void find_rest();
 
   cv::Mat counts_;
-  std::deque<Look> still_;  ///< since the last movement, of the last second
+  std::deque<Look> still_;  ///< since the last movement, within the last second
   cv::Mat at_rest_;         ///< the last look of the rest
   cv::Mat moved_;           ///< after it
   std::optional<Stretch> rest_;
@@ -90,7 +90,7 @@ void RestFinder::look(const cv::Mat& frame, double time_s) {
   const bool has_moved = !moved.empty() && cv::countNonZero(moved) > 0;
   if (has_moved) still_.clear();
   still_.push_back(now);
-  // What one look later would begin the stretch is kept.
+  // Looks older than a stretch may last are dropped.
   constexpr double kRounding_s = 1e-6;
   while (time_s - still_.front().time_s > kWhole_s + kRounding_s) still_.pop_front();
   const double before_s = rest_ ? rest_->to_s : -1;
@@ -139,9 +139,9 @@ bool RestFinder::only_came_in() const {
   return true;
 }
 
-constexpr double kStill_s = .2;  ///< less after the rest tells nothing
+constexpr double kStill_s = .2;  ///< less time after the rest is not judged
 
-/// How far the camera moved from where it stood at the film's end.
+/// How far the camera moved, relative to its position at the film's end.
 double moved_px(const FilmSurvey& survey) {
   const SceneShift shift(survey.samples.back());
   double most_px = 0;
@@ -157,7 +157,7 @@ std::string box_text(const cv::Rect2d& part, const cv::Size& size) {
                      part.width * size.width, part.height * size.height);
 }
 
-/// Why nothing at rest can be taken out of the film; empty: it can.
+/// Why the film has no usable rest; empty if it has.
 std::string fault_of_rest(const RestFinder& finder, const FilmSurvey& survey) {
   const std::string fix =
       "Rule: the scene is still for 0.5 s or more, and the heap does not change after that. Fix: "
@@ -178,9 +178,9 @@ std::string fault_of_rest(const RestFinder& finder, const FilmSurvey& survey) {
       finder.rest()->to_s, where, fix);
 }
 
-/// Adds what is to be known of the film and of the stretch that was taken.
+/// Adds warnings about the film and about the stretch that was used.
 /// @param writing  see writing_in()
-/// @returns whether a person must look at something first
+/// @returns whether the user must check something first
 bool warn_of_rest(const FilmSurvey& survey, const FilmStretch& stretch, const cv::Mat& writing,
                   std::vector<Warning>& warnings) {
   bool is_doubtful = warn_of_film(survey, 0, warnings);
@@ -216,7 +216,7 @@ bool warn_of_rest(const FilmSurvey& survey, const FilmStretch& stretch, const cv
   return is_doubtful;
 }
 
-/// Of few frames a second no rest can be seen.
+/// At too low a frame rate no rest can be detected.
 std::string fault_of_rate(const FilmSurvey& survey) {
   constexpr double kFewest_s = 4;
   if (survey.interval_s * kFewest_s <= 1) return {};
@@ -329,7 +329,7 @@ cv::Mat places_that_count(const FilmSurvey& survey, const MeasureOptions& option
   return counts;
 }
 
-/// Looks for the rest, and keeps the film's last frame that it looked at.
+/// Searches the whole film for the rest.
 RestFinder find_rest(const FilmFile& file, const FilmSurvey& survey, cv::Mat counts,
                      const FilmProgress& progress) {
   RestFinder finder(std::move(counts));
@@ -337,7 +337,7 @@ RestFinder find_rest(const FilmFile& file, const FilmSurvey& survey, cv::Mat cou
   FilmFrame frame;
   const std::size_t count = survey.times_s.size();
   for (std::size_t k = 0; k < count; ++k) {
-    // The last one is always seen: what moves there is no rest.
+    // The last frame is always checked: movement there means no rest.
     const bool looks = k + 1 == count || finder.wants(survey.times_s[k]);
     if (!(looks ? film.next(frame) : film.skip(frame))) break;
     if (looks) finder.look(frame.bgr, frame.time_s);
@@ -346,7 +346,7 @@ RestFinder find_rest(const FilmFile& file, const FilmSurvey& survey, cv::Mat cou
   return finder;
 }
 
-/// The mean of a stretch's frames, or of as many as are worth it, evenly spread.
+/// The mean of a stretch's frames, or of a limited number of them, evenly spread.
 std::pair<Picture, FilmStretch> mean_picture(const FilmFile& file, const FilmSurvey& survey,
                                              const RestFinder::Stretch& rest,
                                              const FilmProgress& progress) {
@@ -376,7 +376,7 @@ std::pair<Picture, FilmStretch> mean_picture(const FilmFile& file, const FilmSur
   return {picture_of(mean), stretch};
 }
 
-/// Looks at the whole film and says why there is no rest, or takes the picture out of it.
+/// Sets the picture of the heap at rest, or returns why there is none.
 std::string take_rest(const FilmFile& file, const MeasureOptions& options,
                       const FilmProgress& progress, RestingPicture& result) {
   constexpr double kSurveyed = .35, kRest = .35;

@@ -10,33 +10,33 @@
 #include "vision/film/film_survey.h"
 #include "vision/measure/repose_angle.h"
 
-/// What is wrong with a film, whatever it shows.
+/// Errors and warnings of films, and the picture of a heap at rest.
 
 namespace repose::vision {
 
 FilmFacts facts_of(const FilmSurvey& survey);
 
-/// Why nothing can be read off it, whatever moves in it; empty: something may.
-/// @param moved_px  how far the camera moves
+/// Why nothing can be measured in it, whatever moves; empty if it can.
+/// @param moved_px  the camera's movement
 std::string fault_of_shot(const FilmSurvey& survey, double moved_px);
 
-/// Why nothing that moves can be followed in it, where frames are made of two fields; empty: they
-/// are whole. What lies still is the same in both.
+/// Why movement cannot be tracked in an interlaced film, whose frames consist of two fields; empty
+/// if it is not interlaced. Still scenes are the same in both fields.
 std::string fault_of_fields(const FilmSurvey& survey);
 
-/// Adds what is to be known of it.
-/// @returns whether a person must look at something first
+/// Adds warnings about the film.
+/// @returns whether the user must check something first
 bool warn_of_film(const FilmSurvey& survey, double moved_px, std::vector<Warning>& warnings);
 
-/// A heap at rest, out of its film.
+/// A heap at rest, taken from its film.
 struct RestingPicture {
-  std::string reason;  ///< why there is none; empty: there is
-  Picture picture;     ///< without one, a late frame of the film
+  std::string reason;  ///< why there is none; empty if there is one
+  Picture picture;     ///< if there is none, a late frame of the film
   std::optional<FilmStretch> stretch;
   FilmFacts film;
   std::vector<double> times_s;  ///< of each frame
   std::vector<Warning> warnings;
-  bool is_doubtful = false;  ///< a person must look at a warning first
+  bool is_doubtful = false;  ///< the user must check a warning first
 };
 
 /// See measure_film().

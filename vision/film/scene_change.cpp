@@ -12,7 +12,7 @@ namespace repose::vision {
 namespace {
 
 constexpr int kShiftWidth_px = 240;
-/// Grey levels by which what stands before the scene differs from it.
+/// Larger differences in grey levels mean that something stands in front of the scene.
 constexpr double kOtherThing = 20;
 
 cv::Mat shift_picture(const cv::Mat& frame) {
@@ -46,7 +46,7 @@ SceneShift::SceneShift(const cv::Mat& scene, const cv::Mat& counts) : grey_(shif
 }
 
 cv::Point2d SceneShift::of(const cv::Mat& frame) const {
-  constexpr double kMax = .5;  // of what differs may be left
+  constexpr double kMax = .5;  // of the difference may remain
   const cv::Mat seen = shift_picture(frame);
   const cv::Point2d shift = shift_of(seen);
   if (difference_to(moved_back(seen, shift)) > kMax * difference_to(seen)) return {0, 0};
@@ -61,14 +61,14 @@ cv::Point2d SceneShift::shift_of(const cv::Mat& seen) const {
   for (int round = 0; round < kRounds; ++round) {
     const cv::Point2d step = step_to(now);
     shift += step;
-    // Gradients tell a pixel or so at a time.
+    // One gradient step finds shifts of about a pixel.
     if (std::hypot(step.x, step.y) < kEnough_px) break;
     now = moved_back(seen, shift);
   }
   return shift;
 }
 
-/// Variance of what differs where nothing stands before the scene.
+/// Variance of the difference where nothing stands in front of the scene.
 double SceneShift::difference_to(const cv::Mat& now) const {
   cv::Mat difference = now - grey_;
   const cv::Mat counts = counts_ & (cv::abs(difference) <= kOtherThing);
@@ -78,7 +78,7 @@ double SceneShift::difference_to(const cv::Mat& now) const {
 }
 
 cv::Point2d SceneShift::step_to(const cv::Mat& now) const {
-  // now = gain scene + offset - shift . gradient, where nothing stands before the scene.
+  // now = gain scene + offset - shift . gradient, where nothing stands in front of the scene.
   cv::Matx44d normal = cv::Matx44d::zeros();
   cv::Vec4d right(0, 0, 0, 0);
   for (int row = 0; row < now.rows; ++row) {
@@ -92,7 +92,7 @@ cv::Point2d SceneShift::step_to(const cv::Mat& now) const {
       right += difference * terms;
     }
   }
-  constexpr double kMinGradient = 50;  // of a scene with anything to hold on to
+  constexpr double kMinGradient = 50;  // of a scene with enough structure
   if (normal(0, 0) < kMinGradient || normal(1, 1) < kMinGradient) return {0, 0};
   for (int k = 0; k < 4; ++k) normal(k, k) += 1e-6;
   const cv::Vec4d solution = normal.solve(right, cv::DECOMP_CHOLESKY);
@@ -103,7 +103,7 @@ namespace {
 
 constexpr int kLookWidth_px = 160;
 constexpr double kBlur_px = .8;
-constexpr double kDarkGrey = 8;  ///< grey levels; of less, a ratio says nothing
+constexpr double kDarkGrey = 8;  ///< grey levels; below it, a ratio means nothing
 
 double middle_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -113,7 +113,7 @@ double middle_of(std::vector<double>& values) {
 
 double grey_of(const cv::Vec3f& colour) { return (colour[0] + colour[1] + colour[2]) / 3; }
 
-/// Where most of them crowd: from the median on towards it, which what moves pulls away.
+/// The mode of the ratios, approached from the median, which moving things bias.
 double crowd_of(std::vector<double>& ratios) {
   constexpr int kRounds = 3;
   constexpr double kNear = .08;
@@ -129,7 +129,7 @@ double crowd_of(std::vector<double>& ratios) {
   return middle;
 }
 
-/// How much brighter each row has become, by most of it and of the rows around it.
+/// How much brighter each row has become, from most of its pixels and of neighbouring rows.
 std::vector<double> row_gains(const cv::Mat& look, const cv::Mat& earlier) {
   cv::Mat gains(look.rows, 1, CV_64F);
   std::vector<double> ratios(static_cast<std::size_t>(look.cols)), all;
@@ -149,7 +149,7 @@ std::vector<double> row_gains(const cv::Mat& look, const cv::Mat& earlier) {
   return {gains.begin<double>(), gains.end<double>()};
 }
 
-/// How much more of each colour there is besides.
+/// The further gain of each colour.
 std::array<double, 3> colour_gains(const cv::Mat& look, const cv::Mat& earlier,
                                    const std::vector<double>& rows) {
   std::array<double, 3> gains{};
@@ -169,7 +169,7 @@ std::array<double, 3> colour_gains(const cv::Mat& look, const cv::Mat& earlier,
   return gains;
 }
 
-/// Of each place the difference in the colour that differs most, once the light is taken out.
+/// For each place, the difference in the colour that differs most, after removing changes of light.
 cv::Mat grey_difference(const cv::Mat& look, const cv::Mat& earlier) {
   const std::vector<double> rows = row_gains(look, earlier);
   const std::array<double, 3> colours = colour_gains(look, earlier, rows);
@@ -189,7 +189,7 @@ cv::Mat grey_difference(const cv::Mat& look, const cv::Mat& earlier) {
   return difference;
 }
 
-/// How much brightness changes from a place to the next, there or beside it.
+/// Brightness gradient at each place, or the largest next to it.
 cv::Mat steepness_of(const cv::Mat& look) {
   cv::Mat grey, across, down, steepness;
   cv::cvtColor(look, grey, cv::COLOR_BGR2GRAY);
@@ -215,8 +215,8 @@ void drop_single_places(cv::Mat& places) {
   }
 }
 
-/// The line of writing that a region belongs to, of which other parts may change less often; empty:
-/// it is too large for writing, or where none stands in films.
+/// The line of writing that a region belongs to, other parts of which may change less often; empty
+/// if it is too large for writing, or not near the upper or lower edge.
 cv::Rect line_around(const cv::Rect& region, const cv::Size& picture) {
   constexpr double kHighest = .14, kWidest = .5, kBand = .22;
   if (region.height > kHighest * picture.height || region.width > kWidest * picture.width) {

@@ -28,7 +28,7 @@ namespace repose::vision {
 
 namespace {
 
-/// Reads the values of one hint file; what is wrong with them is collected.
+/// Reads the values of one hint file and collects their errors.
 class HintReader {
  public:
   HintReader(const toml::table& table, const std::filesystem::path& file)
@@ -41,7 +41,7 @@ class HintReader {
     return numbers_of<kCount>(*node, key, meaning);
   }
 
-  /// A list of such groups.
+  /// A list of such arrays.
   template <std::size_t kCount>
   std::vector<std::array<double, kCount>> groups(const char* key, const char* meaning) {
     std::vector<std::array<double, kCount>> all;
@@ -66,7 +66,7 @@ class HintReader {
   std::string file_name(const char* key);
 
   void refuse_other_keys(std::initializer_list<std::string_view> known);
-  /// What the value of a key, which is there, must not be beside others.
+  /// Refuses the value of an existing key, because of its range or other keys.
   void refuse(const char* key, const std::string& value, const std::string& rule);
   void throw_if_any() const { errors_.throw_if_any(); }
 
@@ -174,7 +174,7 @@ void HintReader::add(const toml::node& node, const std::string& key, const std::
 }
 
 /// The text of a hint file.
-/// @throws base::InputError  it is no TOML.
+/// @throws base::InputError  it is not TOML.
 toml::table parse_hints(const std::string& text, const fs::path& file) {
   if (const auto line = base::line_of_deep_key(text)) {
     throw base::InputError(
@@ -205,7 +205,7 @@ Box box_of(const std::array<double, 4>& numbers) {
   return {.x = pixel(0), .y = pixel(1), .width = pixel(2), .height = pixel(3)};
 }
 
-/// Adds what is not there yet: saved again, a list stays the same.
+/// Adds the item unless it is already there, so that saving again does not change a list.
 template <class Item, class IsSame>
 void add_new(std::vector<Item>& items, const Item& item, IsSame is_same) {
   const auto same = [&](const Item& other) { return is_same(item, other); };
@@ -242,7 +242,7 @@ std::optional<ScaleBar> scale_of(HintReader& reader) {
   return std::nullopt;
 }
 
-/// What the file says of the scale; of the lens the file's name alone.
+/// The file's scale settings; of the lens, only the file name.
 ScaleOptions read_scale(HintReader& reader) {
   ScaleOptions scale;
   scale.lens_file = reader.file_name("camera_file");
@@ -267,7 +267,7 @@ ScaleOptions read_scale(HintReader& reader) {
   return scale;
 }
 
-/// Takes from the file what was not given: the lens, and one scale.
+/// Fills in what was not given: the lens, and one scale.
 void add_scale(const ScaleOptions& saved, const fs::path& folder, ScaleOptions& given) {
   if (!given.lens && !saved.lens_file.empty()) {
     given.lens_file = folder / saved.lens_file;
@@ -280,7 +280,7 @@ void add_scale(const ScaleOptions& saved, const fs::path& folder, ScaleOptions& 
   given.scale = saved.scale;
 }
 
-/// Two points and their distance give sizes, and leave angles as they are.
+/// Two points and their distance determine sizes but do not affect angles.
 bool changes_angles(const toml::table& table) {
   return std::any_of(table.begin(), table.end(),
                      [](const auto& entry) { return entry.first != "scale"; });
@@ -303,7 +303,7 @@ std::string list_of(const std::vector<Item>& items) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
-/// Names a file as seen from the picture's folder.
+/// A file's name relative to the picture's folder.
 std::string near_text(const fs::path& file, const fs::path& picture) {
   const fs::path beside = fs::absolute(picture).parent_path();
   const fs::path near = fs::proximate(fs::absolute(file), beside);
@@ -340,7 +340,7 @@ fs::path hint_file_of(const fs::path& picture) {
 
 namespace {
 
-/// The settings with what the file beside the picture says.
+/// The settings completed from the file beside the picture.
 PictureSettings with_file(PictureSettings given, const fs::path& picture) {
   const fs::path file = hint_file_of(picture);
   constexpr std::uintmax_t kLargest_bytes = 1 << 20;

@@ -16,7 +16,7 @@ namespace repose::vision {
 
 namespace {
 
-/// Grey says nothing, white heap, black none.
+/// Grey: undecided; white: heap; black: not heap.
 constexpr std::uint8_t kNothing = 128;
 
 double level_of(BrushStroke::Says says) {
@@ -47,7 +47,7 @@ Picture painted(Picture mask, int width, int height, const std::vector<BrushStro
                        static_cast<int>(std::lround(place.y)));
     };
     for (std::size_t k = 0; k < stroke.path.size(); ++k) {
-      // Without smoothing: between white and black there is no grey, which would say nothing.
+      // Without anti-aliasing: grey between white and black would mean undecided.
       cv::line(image, at(stroke.path[k == 0 ? 0 : k - 1]), at(stroke.path[k]), colour, thickness);
     }
   }

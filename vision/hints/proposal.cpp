@@ -16,19 +16,19 @@
 namespace repose::vision {
 namespace {
 
-constexpr std::size_t kMaxOfAKind = 4;   // candidates that are tried
-constexpr int kSmallestFrame = 64;       // px: nothing is measured in smaller ones
-constexpr double kMargin = 0.06;         // of a thing's size, left around it
-constexpr double kSameBox = 0.7;         // overlap over union of boxes that are one
+constexpr std::size_t kMaxOfAKind = 4;   // candidates tried
+constexpr int kSmallestFrame = 64;       // px: smaller frames are not measured
+constexpr double kMargin = 0.06;         // of an object's size, left around it
+constexpr double kSameBox = 0.7;         // boxes with more intersection over union count as one
 constexpr double kSmallestThing = 0.05;  // of the frame's area
 constexpr double kLargestThing = 0.9;
 
-// Things laid over a picture: wide, low, and full of steep edges.
-constexpr double kSteepEdge = 60;     // step in grey levels from a pixel to the next
+// Overlaid lettering: wide, low, and full of steep edges.
+constexpr double kSteepEdge = 60;     // step in grey levels from one pixel to the next
 constexpr double kWidestLabel = 0.4;  // of the frame's width
 constexpr double kHighestLabel = 0.25;
 constexpr double kLabelFilled = 0.55;  // of its own box
-constexpr int kLetterGap = 9;          // working px, closed between letters
+constexpr int kLetterGap = 9;          // working px; smaller gaps between letters are closed
 
 double overlap(const cv::Rect& a, const cv::Rect& b) {
   const double both = (a & b).area();
@@ -72,7 +72,7 @@ std::vector<cv::Rect> labels_in(const WorkingPicture& work) {
   return labels;
 }
 
-/// Boxes around the larger things that any segmentation sees.
+/// Boxes around the larger objects found by any segmentation.
 std::vector<cv::Rect> things_in(const WorkingPicture& work) {
   std::vector<cv::Rect> things;
   for (const Segmentation& segmentation : unsupervised_segmentations(work)) {
@@ -104,7 +104,7 @@ bool has_warning(const ReposeAngle& result, std::string_view code) {
                              [&](const Warning& warning) { return warning.code == code; });
 }
 
-/// Upwards, as far as the picture goes.
+/// Extends the box upwards, at most to the picture's edge.
 Box twice_as_high(Box box) {
   const int grown = std::min(box.y, box.height);
   box.y -= grown;
@@ -112,8 +112,8 @@ Box twice_as_high(Box box) {
   return box;
 }
 
-/// Which of two results is to be believed, where both have an angle: one without a flag, then the
-/// one whose heap stands out more clearly for the width of its interval.
+/// Ranks results that have an angle: unflagged first, then by confidence relative to the width of
+/// the interval.
 struct Plausibility {
   bool is_ok = false;
   double clarity = 0;
@@ -138,12 +138,12 @@ class Trials {
   void attempt(Proposal proposal) {
     ReposeAngle result = measured(proposal);
     while (proposal.heap && proposal.heap->y > 0 && has_warning(result, "crest_cut")) {
-      // What was seen is the lower part of a heap whose top looks otherwise, as in a shadow.
+      // Only the lower part of the heap was found: its top looks different, for example in shadow.
       proposal.heap = twice_as_high(*proposal.heap);
       result = measured(proposal);
     }
     if (result.status == MeasureStatus::refused) return;
-    // Of a picture of anything some turn shows something that slopes.
+    // Almost any picture shows some slope in one of its turned positions.
     if (proposal.turn_deg != 0 && has_warning(result, "unlike_a_heap")) return;
     const Plausibility plausibility = Plausibility::of(result);
     if (best_ && !(plausibility > best_plausibility_)) return;
@@ -168,7 +168,7 @@ class Trials {
   Plausibility best_plausibility_;
 };
 
-/// Whether positions or a lens would have to be turned with the picture.
+/// Whether there are no positions and no lens that would have to be turned with the picture.
 bool may_be_turned(const MeasureOptions& options) {
   return options.hints.empty() && options.excluded.empty() && !options.pinhole;
 }

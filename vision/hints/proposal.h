@@ -6,24 +6,24 @@
 
 namespace repose::vision {
 
-/// A hint that helps where a picture was refused.
+/// A hint that may make a refused picture measurable.
 struct Proposal {
-  int turn_deg = 0;               ///< turn the picture clockwise first, of kTurns_deg; 0: do not
-  std::optional<Box> excluded;    ///< leave this out
-  std::optional<Box> heap;        ///< look inside this box alone
-  std::optional<Segment> ground;  ///< ... on this line: a first guess, to be corrected
-  /// What it then gives; empty where it was not tried, because a person must say where the ground
-  /// is.
+  int turn_deg = 0;               ///< turn clockwise first, one of kTurns_deg; 0: no turn
+  std::optional<Box> excluded;    ///< ignore this
+  std::optional<Box> heap;        ///< look only inside this box
+  std::optional<Segment> ground;  ///< with the ground on this line: a first guess, to be corrected
+  /// The result with this hint; std::nullopt if it was not tried because the user must mark the
+  /// ground.
   std::optional<double> angle_rad;
   std::optional<double> uncertainty_rad;
 };
 
-/// Looks for what would help a picture that `options` refused: things laid over it (timers, labels)
-/// that may be left out, boxes around what may be the heap, a picture that lies on its side. All
-/// are tried, and the most plausible is proposed: one without a flag before one with, then the one
-/// whose heap stands out most clearly for the width of its interval. Else the box around the
-/// largest thing and its lower side, as a guess for a person to correct. Empty when there is
-/// nothing to be seen.
+/// Looks for a hint that helps with a picture that was refused with `options`: overlaid timers or
+/// labels to exclude, boxes around possible heaps, a picture that lies on its side. All are tried,
+/// and the most plausible is proposed: unflagged results before flagged ones, then the one with the
+/// highest confidence relative to the width of its interval. Otherwise the box around the largest
+/// object with its lower side as ground, as a guess for the user to correct. std::nullopt if
+/// nothing was found.
 std::optional<Proposal> propose_hint(const Picture& picture, const MeasureOptions& options);
 
 }  // namespace repose::vision

@@ -29,7 +29,7 @@ cv::Mat colours_to_8_bit(const cv::Mat& colours) {
   return result;
 }
 
-/// Mean brightness of a BGR picture, each pixel counted as much as it is opaque.
+/// Mean brightness of a BGR picture, pixels weighted by opacity.
 double mean_brightness(const cv::Mat& bgr, const cv::Mat& alpha) {
   const double opacity = cv::sum(alpha)[0];
   if (opacity == 0) {
@@ -69,7 +69,7 @@ Picture flatten(const cv::Mat& decoded) {
     colours_to_8_bit(decoded).copyTo(bgr);
     return picture;
   }
-  // The colours are parted from alpha first: a full alpha would hide that they are not stretched.
+  // Colours are separated from alpha first: a full alpha would hide that they are not stretched.
   cv::Mat colours(decoded.size(), CV_MAKETYPE(decoded.depth(), 3));
   cv::Mat alpha(decoded.size(), CV_MAKETYPE(decoded.depth(), 1));
   cv::Mat parts[] = {colours, alpha};
@@ -96,7 +96,7 @@ int jpeg_orientation(std::span<const std::uint8_t> jpeg) {
 
 int exif_block_orientation(std::span<const std::uint8_t> block) {
   std::vector<std::uint8_t> with_head = {'E', 'x', 'i', 'f', 0, 0};
-  // Some programs write the head into a PNG or WebP all the same.
+  // Some programs write the head into PNG or WebP files anyway.
   if (std::equal(with_head.begin(), with_head.end(), block.begin(),
                  block.begin() + std::min<std::ptrdiff_t>(6, std::ssize(block)))) {
     with_head.clear();

@@ -12,8 +12,8 @@
 
 namespace repose::vision {
 
-/// To be called with the size in a file's header, before memory for the pixels is asked for.
-/// @throws base::InputError  "what. Fix: ..." when no picture can have that size.
+/// Call with the size in a file's header, before allocating memory for the pixels.
+/// @throws base::InputError  "what. Fix: ..." if no picture can have that size.
 inline void check_claimed_size(std::int64_t width, std::int64_t height) {
   if (width <= 0 || height <= 0) {
     throw base::InputError(
@@ -29,9 +29,9 @@ inline void check_claimed_size(std::int64_t width, std::int64_t height) {
   }
 }
 
-/// To be called where a file says how many bytes its pixels take, or can be asked.
-/// @param claimed_bytes  what the size in the header comes to
-/// @throws base::InputError  "what. Fix: ..." when the file holds another number of them.
+/// Call if the number of bytes that the file holds for its pixels is known.
+/// @param claimed_bytes  as implied by the size in the header
+/// @throws base::InputError  "what. Fix: ..." if the file holds a different number of bytes.
 inline void check_claimed_bytes(std::int64_t width, std::int64_t height, std::int64_t claimed_bytes,
                                 std::int64_t held_bytes) {
   if (claimed_bytes == held_bytes) return;
@@ -42,28 +42,28 @@ inline void check_claimed_bytes(std::int64_t width, std::int64_t height, std::in
        .fix = "copy it from its source again, or save it as PNG."});
 }
 
-/// Makes an 8-bit colour picture of decoded samples: 8 or 16 bits deep; grey, BGR or BGRA with the
-/// colours not yet multiplied by alpha.
+/// Makes an 8-bit colour picture from decoded samples: 8 or 16 bits deep; grey, BGR, or BGRA with
+/// colours not premultiplied by alpha.
 ///
-/// - 16 bits: the full range becomes 0 to 255. Cameras store 10 to 14 bits in 16 without
-///   stretching them, which would come out almost black; so when nothing in the picture reaches a
-///   quarter of the range, its maximum becomes 255.
-/// - Transparency: laid over white or black, whichever is farther from the mean brightness of what
-///   can be seen, so that the heap stands out from its background.
-/// @throws base::InputError  "what. Fix: ..." when it is fully transparent.
+/// - 16 bits: the full range becomes 0 to 255. Cameras store 10 to 14 bits in 16 without stretching
+///   them, which would look almost black; so if nothing in the picture reaches a quarter of the
+///   range, its maximum becomes 255.
+/// - Transparency: composited over white or black, whichever is farther from the mean brightness of
+///   what is visible, so that the heap stands out from its background.
+/// @throws base::InputError  "what. Fix: ..." if it is fully transparent.
 Picture flatten(const cv::Mat& decoded);
 
-/// How a camera was held, by the numbers of the EXIF standard (tag 0x0112): 1 upright, 2 mirrored,
-/// 3 upside down, 4 upside down and mirrored, 5 to 8 lying on a side.
+/// Camera orientation, as numbered by the EXIF standard (tag 0x0112): 1 upright, 2 mirrored, 3
+/// upside down, 4 upside down and mirrored, 5 to 8 on its side.
 inline constexpr int kUprightOrientation = 1;
 
-/// Orientation from a JPEG's content. Upright when there is none or it is no orientation.
+/// Orientation from a JPEG's content. Upright if there is none or it is invalid.
 int jpeg_orientation(std::span<const std::uint8_t> jpeg);
 
 /// The same from the EXIF block of a PNG or WebP, which lacks the "Exif" in front.
 int exif_block_orientation(std::span<const std::uint8_t> block);
 
-/// The picture as it was seen, from one stored with `orientation`.
+/// The upright picture from one stored with `orientation`.
 Picture turned_upright(Picture picture, int orientation);
 
 }  // namespace repose::vision

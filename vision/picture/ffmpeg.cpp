@@ -27,7 +27,7 @@ Frame blank_frame(int width, int height, AVPixelFormat format) {
   frame->width = width;
   frame->height = height;
   if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
-  // What is read beyond a row's end shall not depend on what memory held before.
+  // Zeroed, so that reads beyond a row's end do not depend on earlier memory contents.
   for (AVBufferRef* buffer : frame->buf) {
     if (buffer) std::memset(buffer->data, 0, static_cast<std::size_t>(buffer->size));
   }

@@ -10,7 +10,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-/// What FFmpeg's libraries hand out, freed when it goes out of scope.
+/// RAII wrappers for FFmpeg's objects.
 namespace repose::vision::ffmpeg {
 
 struct Free {
@@ -25,21 +25,21 @@ using Frame = std::unique_ptr<AVFrame, Free>;
 using Packet = std::unique_ptr<AVPacket, Free>;
 using Codec = std::unique_ptr<AVCodecContext, Free>;
 
-/// They print to stderr what they stumble over; only the command line prints.
+/// Stops FFmpeg's libraries from printing to stderr; only the command line prints.
 void silence();
 
-/// Without pixels: a decoder's to fill.
+/// Without pixels, for a decoder to fill.
 /// @throws std::bad_alloc, as do the next two
 Frame empty_frame();
 Packet empty_packet();
 /// Black, with rows that are padded.
 Frame blank_frame(int width, int height, AVPixelFormat format);
 
-/// From one way to store the pixels of a frame to another, of another size where the two differ.
-/// Between RGB and YUV by ITU-R BT.601, whatever a film says of its colours.
+/// Converts frames from one pixel format to another, and rescales if their sizes differ. Between
+/// RGB and YUV by ITU-R BT.601, whatever colour space a film declares.
 class Conversion {
  public:
-  /// @throws base::InputError  "what. Fix: ...": pixels of a kind that cannot be converted.
+  /// @throws base::InputError  "what. Fix: ...": a pixel format that cannot be converted.
   void run(const AVFrame& from, AVFrame& to);
 
  private:

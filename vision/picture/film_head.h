@@ -4,8 +4,8 @@
 
 namespace repose::vision {
 
-/// Whether a file begins as films do: MP4, MOV, AVI, MKV, WebM or GIF. Of an HEIC picture, whose
-/// container is that of MP4, it is not known here.
+/// Whether a file begins like a film: MP4, MOV, AVI, MKV, WebM or GIF. Also true for HEIC pictures,
+/// which use MP4's container.
 inline bool is_film(std::string_view head) {
   using namespace std::string_view_literals;
   if (head.size() < 12) return false;

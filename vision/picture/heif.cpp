@@ -12,7 +12,7 @@
 #include "vision/picture/decoding.h"
 #include "vision/picture/other_formats.h"
 
-/// HEIC and AVIF: what telephones write.
+/// HEIC and AVIF, as written by phones.
 namespace repose::vision {
 
 namespace {
@@ -59,7 +59,7 @@ Picture decode_heif(std::span<const std::uint8_t> bytes) {
   const bool has_alpha = heif_image_handle_has_alpha_channel(found) != 0;
   options->convert_hdr_to_8bit = 1;
   options->strict_decoding = 1;
-  heif_image* decoded = nullptr;  // upright: the file's own turns and mirrors are applied
+  heif_image* decoded = nullptr;  // upright: the file's own rotations and mirroring are applied
   require(heif_decode_image(found, &decoded, heif_colorspace_RGB,
                             has_alpha ? heif_chroma_interleaved_RGBA : heif_chroma_interleaved_RGB,
                             options.get()));

@@ -19,10 +19,10 @@ namespace repose::vision {
 
 namespace {
 
-// Some cameras pad the data before the end marker. More than this was picture once.
+// Some cameras pad the data before the end marker. More than this was once picture data.
 constexpr int kMaxPaddingBytes = 16;
 
-/// The decoder and all that its callbacks need. libjpeg reports an error by calling back and must
+/// The decoder and everything its callbacks need. libjpeg reports an error by calling back and must
 /// not return from there, so the functions below leave it with longjmp. Each function that calls
 /// setjmp therefore owns nothing that has a destructor: this struct is owned by their caller.
 struct JpegDecoder {
@@ -59,7 +59,7 @@ bool is_harmless(const jpeg_error_mgr& warning) {
   }
 }
 
-/// A negative level is a warning; the rest is chatter.
+/// A negative level is a warning; others are trace messages.
 void on_message(j_common_ptr jpeg, int level) {
   if (level < 0 && !is_harmless(*jpeg->err)) leave(jpeg);
 }
@@ -78,7 +78,7 @@ bool read_header(JpegDecoder& decoder, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-/// Rows of `row_bytes` bytes to `pixels`, in libjpeg's `colours`. False as above.
+/// Reads rows of `row_bytes` bytes into `pixels`, in libjpeg's `colours`. False as above.
 bool read_rows(JpegDecoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels,
                std::size_t row_bytes) {
   jpeg_decompress_struct& jpeg = decoder.jpeg;
@@ -99,7 +99,7 @@ bool read_rows(JpegDecoder& decoder, J_COLOR_SPACE colours, std::uint8_t* pixels
        .fix = "copy it from the camera again, or take another picture."});
 }
 
-/// Ink on white paper: what is left of the light. Adobe programs store the inks inverted.
+/// Light reflected by inks on white paper. Adobe programs store the inks inverted.
 void inks_to_bgr(const std::vector<std::uint8_t>& cmyk, bool inverted, Picture& picture) {
   const auto light = [inverted](std::uint8_t ink) { return inverted ? ink : 255 - ink; };
   for (std::size_t in = 0, out = 0; in < cmyk.size(); in += 4, out += 3) {

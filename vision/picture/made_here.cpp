@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// A text of PNG (chapter 11.3.4 of its standard): keyword, zero, text.
+/// A PNG text chunk (chapter 11.3.4 of its standard): keyword, zero, text.
 constexpr std::string_view kPngText = "tEXtSoftware\0repose"sv;
 constexpr std::string_view kJpegComment = "Software: repose";
 
@@ -23,7 +23,7 @@ std::string big_endian(std::uint32_t number, int bytes) {
   return text;
 }
 
-/// Length without the type, type and data, checksum of both.
+/// Length of the data, type and data, checksum of both.
 std::string png_chunk() {
   constexpr std::size_t kType = 4;
   boost::crc_32_type sum;
@@ -32,7 +32,7 @@ std::string png_chunk() {
          std::string(kPngText) + big_endian(sum.checksum(), 4);
 }
 
-/// A comment, with its length, which counts itself.
+/// A comment segment; its length includes the length field.
 std::string jpeg_segment() {
   return "\xFF\xFE" + big_endian(static_cast<std::uint32_t>(kJpegComment.size() + 2), 2) +
          std::string(kJpegComment);

@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <vector>
 
-/// Pictures that repose writes say so, where viewers show it as the software they are made with.
-/// Others are somebody's photographs.
+/// Pictures that repose writes are marked in the software field that viewers show. Others are the
+/// user's photographs.
 namespace repose::vision {
 
-/// The comment in films of ours.
+/// The comment in films that repose writes.
 inline constexpr const char* kFilmComment = "Software: repose";
 
 /// Adds the mark to the content of a PNG or JPEG file.
 void mark_as_made_here(std::vector<std::uint8_t>& content);
 
-/// Whether a file has the mark, or there is none to be lost.
+/// Whether a file may be replaced: it has the mark, is empty or does not exist.
 bool is_made_here(const std::filesystem::path& file);
 
 }  // namespace repose::vision

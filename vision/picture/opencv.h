@@ -14,12 +14,12 @@ inline Picture blank_picture(int width, int height) {
   return {.width = width, .height = height, .bgr = std::vector<std::uint8_t>(bytes)};
 }
 
-/// The picture's own memory as OpenCV sees it: no copy, valid while the picture lives unchanged.
+/// OpenCV's view of the picture's own memory: no copy, valid while the picture exists unchanged.
 inline cv::Mat mat_of(Picture& picture) {
   return cv::Mat(picture.height, picture.width, CV_8UC3, picture.bgr.data());
 }
 
-/// For reading only: OpenCV has no matrix of constants.
+/// For reading only: OpenCV has no const matrices.
 inline cv::Mat mat_of(const Picture& picture) {
   return cv::Mat(picture.height, picture.width, CV_8UC3,
                  const_cast<std::uint8_t*>(picture.bgr.data()));
@@ -28,11 +28,12 @@ inline cv::Mat mat_of(const Picture& picture) {
 /// Turned clockwise by a multiple of a right angle [deg].
 void turn(const cv::Mat& picture, int clockwise_deg, cv::Mat& turned);
 
-/// Keeps OpenCV to the thread that calls it, from the first call on: pictures and films are worked
-/// on side by side, and as many as there are cores gain nothing from threads inside OpenCV. (A film
-/// alone would: a drop takes .7 s in place of .6.) While one of those waits it may start on another
-/// picture and reseed the generator that GrabCut draws from, and their number cannot be changed
-/// while they are used. Hence each way into OpenCV that runs in several threads begins here.
+/// Limits OpenCV to the calling thread, from the first call on: pictures and films are processed in
+/// parallel, and with as many of them as cores, threads inside OpenCV gain nothing. (A single film
+/// would gain: a drop takes .7 s instead of .6.) A waiting OpenCV thread may also start on another
+/// picture and reseed the generator that GrabCut draws from, and the number of threads cannot be
+/// changed while they are in use. Hence every multi-threaded entry point that uses OpenCV begins
+/// with this call.
 void keep_opencv_to_one_thread();
 
 }  // namespace repose::vision

@@ -31,7 +31,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::size_t kHeaderBytes = 54;  // file header and the header every program writes
+constexpr std::size_t kHeaderBytes = 54;  // file header and the usual info header
 
 std::uint32_t number_at(Bytes bytes, std::size_t at) {
   return bytes[at] | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 |
@@ -43,7 +43,7 @@ std::uint32_t number_at(Bytes bytes, std::size_t at) {
                           .fix = "copy it from its source again, or save it as PNG."});
 }
 
-/// The decoder does without what a palette lacks, so it is checked before.
+/// The decoder accepts an incomplete palette, so it is checked first.
 void check_palette(Bytes bytes) {
   constexpr std::int64_t kFileHeaderBytes = 14, kMaxColours = 256, kColourBytes = 4;
   const std::int64_t bits_per_pixel = bytes[28];
@@ -56,7 +56,7 @@ void check_palette(Bytes bytes) {
   }
 }
 
-/// The decoder takes a smaller size for the right one, so it is checked before.
+/// The decoder accepts files that are too short, so the length is checked first.
 void check_bmp_length(Bytes bytes) {
   if (bytes.size() < kHeaderBytes) refuse_damaged_bmp();
   const std::int64_t pixels_from = number_at(bytes, 10);
@@ -75,7 +75,7 @@ void check_bmp_length(Bytes bytes) {
       pixels_from + row_bytes * height > static_cast<std::int64_t>(bytes.size())) {
     refuse_damaged_bmp();
   }
-  // What follows the pixels may be a colour profile; then the header says how many bytes they take.
+  // A colour profile may follow the pixels; then the header says how many bytes the pixels take.
   constexpr std::int64_t kMaxPadding = 4;
   const std::int64_t behind = static_cast<std::int64_t>(bytes.size()) - pixels_from;
   const std::int64_t said = number_at(bytes, 34);
@@ -137,7 +137,7 @@ int orientation_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-/// RIFF says how long it is, but for its own first eight bytes. One byte may fill up.
+/// RIFF gives its own length, without its first eight bytes. One padding byte is allowed.
 void check_webp_length(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kLengthAt = 4, kHeader = 8;
   if (bytes.size() < kLengthAt + sizeof(std::uint32_t)) refuse_damaged_webp();
@@ -169,7 +169,7 @@ Picture decode_webp(std::span<const std::uint8_t> bytes) {
 
 namespace {
 
-/// What libtiff reads from, and the first error that it reports.
+/// The bytes that libtiff reads, and the first error that it reports.
 struct Source {
   std::span<const std::uint8_t> bytes;
   std::uint64_t position = 0;
@@ -201,7 +201,7 @@ int on_close(thandle_t) { return 0; }
 
 toff_t on_size(thandle_t handle) { return source_of(handle).bytes.size(); }
 
-/// Returns 1: nothing more is to be done, above all no printing.
+/// Returns 1: handled; in particular, nothing is printed.
 int on_error(TIFF*, void* user, const char*, const char* format, std::va_list arguments) {
   auto& error = static_cast<Source*>(user)->error;
   if (!error.empty()) return 1;
@@ -221,7 +221,7 @@ File open(Source& source) {
       TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), on_error, &source);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), on_warning, nullptr);
-  // "m": no memory mapping, there is no file.
+  // "m": no memory mapping, as there is no file.
   return File(TIFFClientOpenExt("picture", "rm", &source, on_read, on_write, on_seek, on_close,
                                 on_size, nullptr, nullptr, options.get()),
               &TIFFClose);
@@ -234,7 +234,7 @@ File open(Source& source) {
        .fix = "copy it from where it came from again, or save it as PNG."});
 }
 
-/// A tag of the file, or the value the standard says it has when it is missing.
+/// A tag of the file, or the standard's default if it is missing.
 template <typename Value>
 Value tag(const File& file, std::uint32_t name, Value missing = 0) {
   Value value = missing;
@@ -246,10 +246,10 @@ struct Layout {
   int bits = 0;
   int channels = 0;
   std::uint16_t colours = 0;
-  bool is_rows_of_whole_pixels = false;  ///< not tiled, channels not apart
+  bool is_rows_of_whole_pixels = false;  ///< not tiled, channels interleaved
   bool is_integer = true;
 
-  /// Read sample by sample, which keeps 16 bits and alpha as they are.
+  /// Whether it can be read sample by sample, which keeps 16 bits and alpha unchanged.
   bool is_plain() const {
     const bool is_grey = colours == PHOTOMETRIC_MINISBLACK || colours == PHOTOMETRIC_MINISWHITE;
     const bool fits = (is_grey && channels == 1) ||
@@ -283,7 +283,7 @@ std::int64_t listed_bytes(const File& file) {
   return sum;
 }
 
-/// Only of pixels that are not packed the file says how many bytes they must be.
+/// The number of bytes is known only for uncompressed pixels.
 void check_bytes(const File& file, std::int64_t width, std::int64_t height) {
   if (tag<std::uint16_t>(file, TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE) return;
   const std::int64_t listed = listed_bytes(file);
@@ -300,7 +300,7 @@ void check_bytes(const File& file, std::int64_t width, std::int64_t height) {
   const auto plane = static_cast<std::int64_t>(TIFFVStripSize64(file.get(), rows));
   const std::int64_t whole_strips = static_cast<std::int64_t>(TIFFNumberOfStrips(file.get())) *
                                     static_cast<std::int64_t>(TIFFStripSize64(file.get()));
-  if (listed == whole_strips) return;  // the last one too, as some programs write it
+  if (listed == whole_strips) return;  // the last one padded too, as some programs write it
   check_claimed_bytes(width, height, planes * plane, listed);
 }
 
@@ -318,8 +318,8 @@ cv::Mat read_plain(const File& file, const Source& source, const Layout& layout,
   return samples;
 }
 
-/// Everything else through libtiff's own conversion to 8 bits. It multiplies the colours by alpha,
-/// so dropping alpha lays them over black.
+/// Everything else through libtiff's own conversion to 8 bits. It premultiplies the colours by
+/// alpha, so dropping alpha composites them over black.
 cv::Mat read_converted(const File& file, const Source& source, cv::Size size, int orientation) {
   char why_not[1024];
   if (!TIFFRGBAImageOK(file.get(), why_not)) {
@@ -328,7 +328,7 @@ cv::Mat read_converted(const File& file, const Source& source, cv::Size size, in
   }
   cv::Mat rgba(size, CV_8UC4);
   constexpr int kStopAtErrors = 1;
-  // Asked for as it is stored: libtiff does not turn pictures that lie on a side.
+  // Requested as stored: libtiff does not turn pictures that lie on their side.
   if (!TIFFReadRGBAImageOriented(file.get(), static_cast<std::uint32_t>(size.width),
                                  static_cast<std::uint32_t>(size.height), rgba.ptr<std::uint32_t>(),
                                  orientation, kStopAtErrors)) {
@@ -339,8 +339,8 @@ cv::Mat read_converted(const File& file, const Source& source, cv::Size size, in
   return bgr;
 }
 
-/// Scanners and editors write pages of one file beside each other: previews, which are smaller, or
-/// further pictures, of which only a person knows which one is meant.
+/// Scanners and editors write several pages to one file: smaller previews, or further pictures,
+/// among which only the user can choose.
 void turn_to_largest_page(const File& file) {
   constexpr int kMostPages = 10000;
   std::int64_t largest = -1;

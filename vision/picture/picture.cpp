@@ -35,12 +35,12 @@ std::string_view text_at(Bytes bytes, std::size_t from, std::size_t length) {
 
 enum class Format { jpeg, png, tiff, bmp, webp, heic, film, unknown };
 
-/// Of the containers that begin alike, those of HEIC and AVIF: by the brand that comes first.
+/// Whether a container's major brand is that of HEIC or AVIF.
 bool is_picture_brand(std::string_view brand) {
   return brand.starts_with("he") || brand == "mif1" || brand == "msf1" || brand.starts_with("avi");
 }
 
-/// By content: names lie.
+/// By content: names may be wrong.
 Format format_of(Bytes bytes) {
   if (text_at(bytes, 0, 3) == "\xFF\xD8\xFF") return Format::jpeg;
   if (text_at(bytes, 0, 4) == "\x89PNG") return Format::png;

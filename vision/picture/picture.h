@@ -29,7 +29,7 @@ struct Box {
   int height = 0;
 };
 
-/// 8-bit colour picture, rows from the top, three bytes a pixel in the order blue, green, red.
+/// 8-bit colour picture, rows from the top, three bytes per pixel in the order blue, green, red.
 struct Picture {
   int width = 0;
   int height = 0;
@@ -38,18 +38,18 @@ struct Picture {
   bool empty() const { return width <= 0 || height <= 0; }
 };
 
-/// More pixels than this are refused before any memory is asked for.
+/// Pictures with more pixels are refused before any memory is allocated.
 inline constexpr std::int64_t kMaxPixels = 200'000'000;
 
 /// Reads a JPEG, HEIC, AVIF, PNG, TIFF, BMP or WebP file into upright 8-bit colour.
 ///
 /// EXIF rotation is applied; grey, CMYK, 16-bit and transparent pictures are converted.
-/// @throws base::InputError  one line "FILE: what. Fix: ..." when the file is missing, empty,
-///   no picture, damaged, cut short, or claims more than kMaxPixels.
+/// @throws base::InputError  one line "FILE: what. Fix: ..." if the file is missing, empty, not a
+///   picture, damaged, truncated, or claims more than kMaxPixels.
 Picture read_picture(const std::filesystem::path& file);
 
-/// Writes a PNG (or JPEG, by the name's ending) whole or not at all.
-/// @throws base::InputError  when the place cannot be written.
+/// Writes a PNG (or JPEG, by the name's ending) atomically.
+/// @throws base::InputError  another ending, no pixels, or the file cannot be written.
 void write_picture(const std::filesystem::path& file, const Picture& picture);
 
 /// The content of a JPEG file.
@@ -63,7 +63,7 @@ std::vector<std::uint8_t> png_of(const Picture& picture);
 /// The picture turned clockwise by a multiple of a right angle [deg].
 Picture turned(Picture picture, int clockwise_deg);
 
-/// The picture made smaller until no side is longer than that [px]; smaller ones stay as they are.
+/// The picture scaled down so that no side is longer than that [px]; smaller ones are unchanged.
 Picture reduced(const Picture& picture, int longest_side_px);
 
 }  // namespace repose::vision

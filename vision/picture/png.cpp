@@ -19,8 +19,8 @@ namespace repose::vision {
 
 namespace {
 
-/// The decoder and all that its callbacks need. libpng leaves a failed call with longjmp, so the
-/// functions below that call setjmp own nothing with a destructor: this struct is their caller's.
+/// The decoder and everything its callbacks need. libpng leaves a failed call with longjmp, so the
+/// functions below that call setjmp own nothing with a destructor: their caller owns this struct.
 struct PngDecoder {
   png_structp png = nullptr;
   png_infop info = nullptr;
@@ -41,7 +41,7 @@ struct PngDecoder {
   png_longjmp(png, 1);
 }
 
-/// Warnings are about metadata: colour profiles, dates.
+/// Warnings concern metadata only: colour profiles, dates.
 void on_warning(png_structp, png_const_charp) {}
 
 void on_read(png_structp png, png_bytep to, std::size_t count) {
@@ -63,7 +63,7 @@ bool read_header(PngDecoder& decoder) {
   return true;
 }
 
-/// Asks for BGR or BGRA of 8 or 16 bits. False as above.
+/// Requests BGR or BGRA of 8 or 16 bits. False as above.
 bool choose_samples(PngDecoder& decoder) {
   if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
   png_set_expand(decoder.png);

@@ -17,17 +17,17 @@ class FilmEncoder {
   FilmEncoder(FilmEncoder&&) = delete;
   FilmEncoder& operator=(FilmEncoder&&) = delete;
 
-  /// Both return whether it worked.
+  /// Both return whether they succeeded.
   virtual bool add(const Picture& picture) = 0;
   virtual bool close() = 0;
 };
 
-/// H.264. Of an odd size the last row or column is left out.
+/// H.264. If the size is odd, the last row or column is left out.
 /// @throws base::InputError  "what. Fix: ...": FFmpeg was built without such an encoder.
 std::unique_ptr<FilmEncoder> mp4_encoder(const std::filesystem::path& file, double frames_per_s,
                                          int width, int height);
 
-/// 256 colours a picture; repeats for ever.
+/// 256 colours per picture; loops forever.
 std::unique_ptr<FilmEncoder> gif_encoder(const std::filesystem::path& file, double frames_per_s,
                                          int width, int height);
 

@@ -13,17 +13,17 @@ namespace repose::vision {
 
 class FilmEncoder;
 
-/// Pictures one after the other in an MP4 (H.264) or GIF file, which is there whole or not at all:
-/// until then the earlier one is.
+/// Writes pictures to an MP4 (H.264) or GIF file, atomically: an earlier file is kept until
+/// close().
 ///
 /// The same pictures give the same bytes with the same version of the encoder, on processors with
-/// AVX2; older ones round some sums otherwise.
+/// AVX2; older ones round some sums differently.
 class FilmWriter {
  public:
-  /// By the name's ending.
-  /// @throws base::InputError  another ending, or a place that cannot be written.
+  /// The format is chosen by the name's ending.
+  /// @throws base::InputError  another ending, or the file cannot be written.
   FilmWriter(std::filesystem::path file, double frames_per_s);
-  /// Without close(), nothing is left behind.
+  /// Without close(), no file is left behind.
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
@@ -34,7 +34,7 @@ class FilmWriter {
   /// @throws base::InputError  the picture cannot be written.
   void add(const Picture& picture);
 
-  /// Puts the film in its place.
+  /// Moves the film to its final place.
   /// @throws base::InputError  no picture was added, or it cannot be written.
   void close();
 

@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A frame rate such as 29.97 becomes 30000/1001.
+/// Lets a frame rate such as 29.97 become 30000/1001.
 constexpr int kMaxOfFraction = 1'001'000;
 
-/// The usual quality, of one thread: what several write depends on their number. "mbtree" shares
-/// bits out by what later pictures reuse; with AVX-512, x264 then reads memory that nobody set
-/// where rows are no multiple of eight macroblocks (128 pixels), and the file's bytes depend on it.
-/// Test: FilmWriter.HasTheSameBytesWhateverWasInMemory.
+/// Default quality, one thread: the output of several depends on their number. "mbtree" distributes
+/// bits by what later pictures reuse; with AVX-512, x264 then reads uninitialised memory if rows
+/// are not a multiple of eight macroblocks (128 pixels), and the file's bytes depend on it. Test:
+/// FilmWriter.HasTheSameBytesWhateverWasInMemory.
 AVDictionary* encoder_options() {
   AVDictionary* options = nullptr;
   av_dict_set(&options, "crf", "23", 0);
@@ -43,7 +43,7 @@ ffmpeg::Codec opened_encoder(double frames_per_s, int width, int height) {
   codec->time_base = av_inv_q(codec->framerate);
   codec->pix_fmt = AV_PIX_FMT_YUV420P;
   codec->color_range = AVCOL_RANGE_MPEG;
-  codec->colorspace = AVCOL_SPC_SMPTE170M;  // ITU-R BT.601, as ffmpeg::Conversion has it
+  codec->colorspace = AVCOL_SPC_SMPTE170M;  // ITU-R BT.601, as in ffmpeg::Conversion
   codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   AVDictionary* options = encoder_options();
   const int result = avcodec_open2(codec.get(), encoder, &options);
@@ -59,7 +59,7 @@ struct CloseOutput {
 };
 using Output = std::unique_ptr<AVFormatContext, CloseOutput>;
 
-/// With its header written. Nothing in it depends on the version of a library or on the day.
+/// The output with its header written. Nothing in it depends on library versions or the date.
 Output opened_output(const fs::path& file, const AVCodecContext& codec) {
   AVFormatContext* format = nullptr;
   if (avformat_alloc_output_context2(&format, nullptr, "mp4", nullptr) < 0) throw std::bad_alloc();
@@ -71,7 +71,7 @@ Output opened_output(const fs::path& file, const AVCodecContext& codec) {
   }
   stream->time_base = codec.time_base;
   stream->avg_frame_rate = codec.framerate;
-  // By which it is known as a film of ours; see vision/picture/made_here.h.
+  // Marks it as a film of ours; see vision/picture/made_here.h.
   av_dict_set(&format->metadata, "comment", kFilmComment, 0);
   const std::string name = "file:" + file.string();
   const bool is_good = avio_open(&format->pb, name.c_str(), AVIO_FLAG_WRITE) >= 0 &&
@@ -82,7 +82,7 @@ Output opened_output(const fs::path& file, const AVCodecContext& codec) {
 class Mp4Encoder : public FilmEncoder {
  public:
   Mp4Encoder(const fs::path& file, double frames_per_s, int width, int height)
-      : bgr_(ffmpeg::blank_frame(width & ~1, height & ~1, AV_PIX_FMT_BGR24)),  // colours are halved
+      : bgr_(ffmpeg::blank_frame(width & ~1, height & ~1, AV_PIX_FMT_BGR24)),  // chroma is halved
         yuv_(ffmpeg::blank_frame(width & ~1, height & ~1, AV_PIX_FMT_YUV420P)),
         packet_(ffmpeg::empty_packet()) {
     ffmpeg::silence();
@@ -107,7 +107,7 @@ class Mp4Encoder : public FilmEncoder {
   }
 
  private:
-  /// Without a frame, what the encoder kept back.
+  /// nullptr: flushes the encoder.
   bool encode(const AVFrame* frame) {
     if (avcodec_send_frame(codec_.get(), frame) < 0) return false;
     int result = 0;
@@ -122,7 +122,7 @@ class Mp4Encoder : public FilmEncoder {
   ffmpeg::Frame bgr_, yuv_;
   ffmpeg::Packet packet_;
   ffmpeg::Conversion to_yuv_;
-  ffmpeg::Codec codec_;  ///< null, as is the next, where it could not be opened
+  ffmpeg::Codec codec_;  ///< nullptr, like the next, if it could not be opened
   Output output_;
   std::int64_t frames_ = 0;
 };

@@ -19,13 +19,13 @@ namespace repose::vision {
 
 namespace {
 
-/// Numbers of the matrix by which a point (x, y, 1) of the stored frame gets its place.
+/// The matrix that maps a point (x, y, 1) of the stored frame to its place.
 using Matrix = std::array<std::int32_t, 9>;
 
 constexpr const char* kFixShape =
     "ffmpeg -i FILM -vf scale=iw*sar:ih,setsar=1 -crf 12 NEW.mp4 makes such frames.";
 
-/// Of anamorphic lenses and of fields that were stored as frames.
+/// Covers anamorphic lenses and fields stored as frames.
 constexpr double kMaxAspect = 4;
 
 const std::uint8_t* stored_matrix(const AVStream& stream) {
@@ -39,7 +39,7 @@ const std::uint8_t* stored_matrix(const AVStream& stream) {
 #endif
 }
 
-/// How telephones say how they were held.
+/// The matrix by which phones record how they were held.
 std::optional<Matrix> display_matrix(const AVStream& stream, const AVFrame* frame) {
   const std::uint8_t* data = stored_matrix(stream);
   if (!data && frame) {
@@ -52,7 +52,7 @@ std::optional<Matrix> display_matrix(const AVStream& stream, const AVFrame* fram
   return matrix;
 }
 
-/// Only turns by quarters and mirror images, which move no pixel off its grid, are done.
+/// Only quarter turns and mirror images, which keep pixels on the grid, are supported.
 void read_turn(const Matrix& matrix, ShownFrame& shown) {
   const double a = matrix[0], b = matrix[1], c = matrix[3], d = matrix[4];
   const double size = std::hypot(a, b);
@@ -139,7 +139,7 @@ ShownFrame shown_frame(const AVStream& stream, const AVFrame* frame) {
 
 namespace {
 
-/// Damaged pieces one after the other, after which the rest of a film is given up.
+/// After this many damaged packets in a row, the rest of a film is given up.
 constexpr int kMaxDamaged = 512;
 
 [[noreturn]] void refuse_film(const std::filesystem::path& file) {
@@ -147,7 +147,7 @@ constexpr int kMaxDamaged = 512;
                "copy it from the telephone again, or convert it to MP4 (H.264).");
 }
 
-/// A picture that stands for what is heard, such as a record's cover.
+/// A still picture of a sound file, such as an album cover.
 bool is_cover(const AVStream& stream) {
   return (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) != 0;
 }
@@ -162,7 +162,7 @@ bool is_cover(const AVStream& stream) {
   refuse_film(file);
 }
 
-/// Of files only, and of no kind that points to other files or places.
+/// Opens files only, and no formats that refer to other files or addresses.
 ffmpeg::Input opened(const std::filesystem::path& file) {
   AVDictionary* options = nullptr;
   av_dict_set(&options, "protocol_whitelist", "file", 0);
@@ -175,11 +175,11 @@ ffmpeg::Input opened(const std::filesystem::path& file) {
   return ffmpeg::Input(format);
 }
 
-/// @returns null where it cannot be opened
+/// @returns nullptr if it cannot be opened
 ffmpeg::Codec decoder_of(const AVStream& stream) {
   ffmpeg::Codec codec(avcodec_alloc_context3(nullptr));
   if (!codec) throw std::bad_alloc();
-  codec->thread_count = 0;  // as many as there are processors
+  codec->thread_count = 0;  // one per processor
   if (avcodec_parameters_to_context(codec.get(), stream.codecpar) < 0) return nullptr;
   const auto* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
   if (!decoder || avcodec_open2(codec.get(), decoder, nullptr) < 0) return nullptr;
@@ -226,7 +226,7 @@ std::int64_t VideoDecoder::claimed_frames() const {
                       claimed_frames_per_s().value_or(0));
 }
 
-/// At the end an empty one, for which the decoder hands out what it kept back.
+/// At the end sends an empty packet, which makes the decoder return its remaining frames.
 bool VideoDecoder::send_next_packet() {
   while (av_read_frame(input_.get(), packet_.get()) >= 0) {
     const bool is_picture = packet_->stream_index == stream_->index;
