@@ -9,7 +9,7 @@ namespace repose::dem {
 
 /// Positions, velocities, forces: SI units, z upwards unless said otherwise.
 using Vector = Eigen::Vector3d;
-/// Orientations: rotate from a body's own frame to the world's. Always of unit length.
+/// Orientations: rotate from the body's own frame to the world's. Always of unit length.
 using Quaternion = Eigen::Quaterniond;
 
 }  // namespace repose::dem

@@ -9,25 +9,26 @@
 
 #include "base/units.h"
 
-/// Whether dry grains would stick to each other, as simulated ones never do.
+/// Whether real dry grains would stick to each other; simulated ones never do.
 namespace repose::dem {
 
-/// Work of adhesion of rough dry grains by van der Waals' forces, J/m2, where nothing is known of
-/// it: pull-off forces A r / (6 z^2) of asperities of r = 0.1 and 1 um (A = 6.5e-20 J, z = .4 nm:
-/// Israelachvili, Intermolecular and Surface Forces, 3rd ed. 2011, chapters 11 and 13), as a grain
-/// of 0.1 mm has by the theory below. That of ideally smooth surfaces is 100 times as large; grains
-/// do not reach it.
+/// Work of adhesion of rough dry grains by van der Waals forces, J/m2, if not known: pull-off
+/// forces A r / (6 z^2) of asperities of r = 0.1 and 1 um (A = 6.5e-20 J, z = .4 nm: Israelachvili,
+/// Intermolecular and Surface Forces, 3rd ed. 2011, chapters 11 and 13), converted for a grain of
+/// 0.1 mm by the theory below. Ideally smooth surfaces have 100 times as much; grains do not reach
+/// that.
 inline constexpr double kRoughestAdhesion_j_m2 = 6e-5;
 inline constexpr double kSmoothestAdhesion_j_m2 = 6e-4;
 
-/// Force that pulls a grain off an equal one, 3/2 pi W R* (Johnson, Kendall, Roberts 1971, Proc. R.
-/// Soc. A 324, 301), R* = d / 4, by its weight, pi / 6 q d^3 g: 9 W / (4 q g d^2). Above 1 a grain
-/// hangs from another. Proved by Adhesion.* in tests/dem/adhesion_test.cpp.
+/// Bond number: the force that pulls a grain off an equal one, 3/2 pi W R* (Johnson, Kendall,
+/// Roberts 1971, Proc. R. Soc. A 324, 301), R* = d / 4, divided by its weight, pi / 6 q d^3 g, q
+/// its density: 9 W / (4 q g d^2). Above 1 a grain can hang from another. Proved by Adhesion.* in
+/// tests/dem/adhesion_test.cpp.
 inline double bond_number(double diameter_m, double density_kg_m3, double adhesion_j_m2) {
   return 9 * adhesion_j_m2 / (4 * density_kg_m3 * kStandardGravity_m_s2 * diameter_m * diameter_m);
 }
 
-/// What to know about the results of grains of this volume; none: they are large enough.
+/// Warning about results for grains of this volume; std::nullopt if they are large enough.
 inline std::optional<std::string> adhesion_warning(double volume_m3, double density_kg_m3) {
   const double diameter_m = std::cbrt(6 / std::numbers::pi * volume_m3);
   const double least = bond_number(diameter_m, density_kg_m3, kRoughestAdhesion_j_m2);

@@ -11,12 +11,13 @@ namespace repose::dem {
 /// What a grain or a wall is made of.
 struct Material {
   std::string name;
-  double density_kg_m3 = 0;  ///< > 0; of no effect on walls
+  double density_kg_m3 = 0;  ///< > 0; no effect on walls
   double young_modulus_pa = 0;
   double poisson_ratio = 0;  ///< 0 <= nu < .5
 };
 
-/// How the torque that resists rolling is defined. The coefficient means something else in each.
+/// How the torque that resists rolling is defined. The coefficient's meaning differs between
+/// models.
 enum class RollingModel {
   none,
   /// EDEM's standard rolling friction: on each body, mu_r F_n times its own distance from the
@@ -28,42 +29,42 @@ enum class RollingModel {
   elastic_plastic,
 };
 
-/// How the contacts damp that two bodies have with each other at the same time.
+/// How simultaneous contacts between the same two bodies are damped.
 enum class DampingModel {
-  /// Each as if it were alone, with the whole reduced mass: the more spheres of a clump touch, the
-  /// less it rebounds.
+  /// Each as if alone, with the whole reduced mass: the more spheres of a clump touch, the less it
+  /// rebounds.
   per_contact,
-  /// Each with its share of the reduced mass, so that all together rebound as one would.
+  /// Each with its share of the reduced mass, so that together they rebound like a single contact.
   shared,
 };
 
-/// Of impacts; textbook restitutions below that cannot be told from 0.
+/// Lowest restitution of impacts; lower ones are indistinguishable from 0.
 inline constexpr double kMinRestitution = .01;
-/// Where restitution depends on the speed of impact: slow ones would make energy without a limit.
+/// Limit if restitution depends on impact speed: without it slow impacts would create energy.
 inline constexpr double kMaxRestitutionBySpeed = .99;
-/// Of the speed: a contact that yields all over has e ~ v^(-1/4) (Johnson 1985, Contact Mechanics,
-/// eq. 11.47), others less.
+/// Limit of the speed exponent: a fully plastic contact has e ~ v^(-1/4) (Johnson 1985, Contact
+/// Mechanics, eq. 11.47), others less.
 inline constexpr double kMaxRestitutionExponent = .25;
 
-/// What two materials do to each other.
+/// Contact coefficients between two materials.
 struct PairCoefficients {
-  double restitution = 1;       ///< .01 ... 1: what comes out of a central impact of two spheres
+  double restitution = 1;       ///< .01 ... 1: speed ratio of a central impact of two spheres
   double sliding_friction = 0;  ///< >= 0
   double rolling_friction = 0;  ///< >= 0
-  /// 0: restitution is the same at all speeds. Else, 0 ... kMaxRestitutionExponent, it is that of
-  /// an impact at restitution_speed_m_s, and of others as speed_damping.h says.
+  /// 0: restitution is the same at all speeds. Otherwise, up to kMaxRestitutionExponent:
+  /// restitution holds at restitution_speed_m_s, and at other speeds as restitution_at() gives.
   double restitution_exponent = 0;
   double restitution_speed_m_s = 0;
 };
 
-/// Parts of a bench that may be of another material than its plate.
+/// Parts of an apparatus that may be of another material than its plate.
 enum class WallPart {
-  tube,     ///< of a heap, of a fill
+  tube,     ///< of a heap or a fill
   incline,  ///< of a roll, down to the plate
   pane      ///< the upright walls of a draw-down's boxes
 };
 
-/// What files call them: [wall.tube], [contact.particle_tube].
+/// Their names in files: [wall.tube], [contact.particle_tube].
 inline constexpr std::array<std::pair<WallPart, std::string_view>, 3> kWallParts = {
     {{WallPart::tube, "tube"}, {WallPart::incline, "incline"}, {WallPart::pane, "pane"}}};
 
@@ -71,7 +72,7 @@ inline std::string name_of(WallPart part) {
   return std::string(kWallParts[static_cast<std::size_t>(part)].second);
 }
 
-/// What such a part is made of, and what it does to grains.
+/// Material of such a part, and its coefficients with grains.
 struct WallSurface {
   Material material;
   PairCoefficients with_grain;

@@ -10,7 +10,7 @@
 
 namespace repose::dem {
 
-/// What files call the damping models.
+/// Names of the damping models in files.
 inline constexpr std::array<std::pair<DampingModel, std::string_view>, 2> kDampingNames = {{
     {DampingModel::per_contact, "per_contact"},
     {DampingModel::shared, "shared"},
@@ -23,7 +23,7 @@ inline std::string name_of(DampingModel model) {
   return {};
 }
 
-/// What a coefficient of restitution means for a clump.
+/// States what a coefficient of restitution means for a clump.
 inline std::string damping_definition(DampingModel model) {
   return model == DampingModel::shared
              ? "contacts of two bodies share their reduced mass by elastic energy, and rebound "
@@ -39,7 +39,7 @@ inline std::optional<DampingModel> damping_model_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// What files call the rolling models.
+/// Names of the rolling models in files.
 inline constexpr std::array<std::pair<RollingModel, std::string_view>, 4> kRollingNames = {{
     {RollingModel::none, "none"},
     {RollingModel::constant_torque, "constant_torque"},

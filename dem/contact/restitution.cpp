@@ -42,7 +42,7 @@ double solved_damping_factor(double restitution) {
 
 double restitution_of(double factor) {
   namespace odeint = boost::numeric::odeint;
-  // Steps must resolve the start, where the overlap's quarter power has no slope.
+  // Steps must resolve the start, where the overlap's quarter power has an infinite slope.
   constexpr double kStep = 1e-3;
   const auto motion = [factor](const State& state, State& rate, double /*time*/) {
     rate = {state[1], -force(state, factor)};
@@ -68,7 +68,7 @@ double textbook_damping_factor(double restitution) {
 }
 
 double damping_factor(double restitution) {
-  // Every run makes a table of contacts, of coefficients that mostly were asked for before.
+  // Every run builds a contact table, mostly from coefficients already seen.
   thread_local std::unordered_map<double, double> known;
   const auto found = known.find(restitution);
   if (found != known.end()) return found->second;
@@ -77,8 +77,8 @@ double damping_factor(double restitution) {
 
 namespace {
 
-/// damping_factor() of any restitution, without solving for each: its ratio to the textbook's
-/// factor hardly changes from one -ln e to the next, and is interpolated.
+/// damping_factor() for any restitution without solving each time: its ratio to the textbook factor
+/// varies slowly with -ln e and is interpolated.
 class FactorTable {
  public:
   FactorTable() {

@@ -9,7 +9,7 @@ namespace repose::dem {
 
 double greatest_eigenvalue(const Matrices& matrices) {
   if (matrices.empty()) return 0;
-  // No eigenvalue is above the norm: few others are needed after that of the greatest norm.
+  // No eigenvalue exceeds the norm: after the matrix of greatest norm few others need solving.
   const auto norm = [](const Matrix6& matrix) { return matrix.squaredNorm(); };
   const Matrix6& first = *std::ranges::max_element(matrices, {}, norm);
   double greatest = 0;
@@ -41,7 +41,7 @@ struct AuditedTouch {
   const ContactHistory& memory;
 };
 
-/// Calls visit(AuditedTouch) for each.
+/// Calls visit(AuditedTouch) for each contact.
 template <typename Visit>
 void for_each_touch(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
                     const NeighbourList& list, const Visit& visit) {
@@ -84,12 +84,13 @@ Eigen::Matrix3d cross_matrix(const Vector& v) {
   return matrix;
 }
 
-/// Adds a contact's stiffness to a body's, in coordinates scaled by the roots of mass and inertia.
+/// Adds a contact's stiffness to a body's, in coordinates scaled by the square roots of mass and
+/// inertia.
 void add_stiffness(const Bodies& bodies, std::size_t body, const Vector& point,
                    const Eigen::Matrix3d& stiffness, Matrix6& sum) {
   const Eigen::Matrix3d axes = bodies.orientation_of(body).toRotationMatrix();
   const Vector roots = bodies.inverse_inertia[body].cwiseSqrt();
-  Eigen::Matrix<double, 3, 6> motion;  // of the point, by the scaled coordinates
+  Eigen::Matrix<double, 3, 6> motion;  // of the point, per scaled coordinate
   motion.leftCols<3>() = Eigen::Matrix3d::Identity() / std::sqrt(bodies.mass[body]);
   motion.rightCols<3>() =
       -cross_matrix(point - bodies.position[body].xyz) * axes * roots.asDiagonal();

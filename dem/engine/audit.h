@@ -12,20 +12,20 @@
 
 namespace repose::dem {
 
-/// A body's three ways to move and three to turn.
+/// A body's three translations and three rotations.
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrices = std::vector<Matrix6, Eigen::aligned_allocator<Matrix6>>;
 
-/// Of any of these matrices, symmetric and with no negative eigenvalue; 0 of none.
+/// The greatest eigenvalue of any of these symmetric, positive semi-definite matrices; 0 if empty.
 double greatest_eigenvalue(const Matrices& matrices);
 
-/// Highest angular frequency that the touching contacts can make bodies swing with, rad/s; none
-/// without contacts.
+/// Highest angular frequency at which the active contacts can make bodies oscillate, rad/s;
+/// std::nullopt without contacts.
 ///
-/// A bound, never too low: omega^2 <= max over bodies of c lambda_max(M^-1/2 K M^-1/2), K the 6 x 6
-/// stiffness of all the body's contacts (normal and tangential), M its mass and inertia; c = 1 for
-/// contacts with walls, 2 between bodies (for each contact (x + y)^2 <= 2 x^2 + 2 y^2; the
-/// element-by-element bound of Fried 1972, for rigid bodies). A leapfrog step is stable below
+/// An upper bound, never too low: omega^2 <= max over bodies of c lambda_max(M^-1/2 K M^-1/2), K
+/// the 6 x 6 stiffness of all the body's contacts (normal and tangential), M its mass and inertia;
+/// c = 1 for contacts with walls, 2 between bodies (for each contact (x + y)^2 <= 2 x^2 + 2 y^2;
+/// the element-by-element bound of Fried 1972, for rigid bodies). A leapfrog step is stable below
 /// 2 / omega. Proved by StableTimestep.* in tests/dem/timestep_test.cpp.
 std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& walls,
                                         const ContactTable& contacts, const NeighbourList& list);
@@ -33,8 +33,8 @@ std::optional<double> highest_frequency(const Bodies& bodies, const WallSet& wal
 Energies energies_of(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
                      const NeighbourList& list, const Vector& gravity);
 
-/// The body, the first one of two, of the deepest overlap, as a fraction of the smaller sphere's
-/// radius.
+/// The (first) body of the contact whose overlap is the largest fraction of the smaller sphere's
+/// radius; -1 without contacts.
 int deepest_body(const Bodies& bodies, const WallSet& walls, const ContactTable& contacts,
                  const NeighbourList& list);
 

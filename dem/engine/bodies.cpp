@@ -94,7 +94,7 @@ struct Quaternions {
   Double4 w;
 };
 
-/// The body's axes in the world's.
+/// The body's axes in world coordinates.
 struct Axes {
   Vectors x;
   Vectors y;
@@ -122,7 +122,7 @@ REPOSE_INLINE Axes axes_of(const Quaternions& q) {
           {xz + wy, yz - wx, 1 - (xx + yy)}};
 }
 
-/// Turns about the body's own axes by Cayley's map: by 2 atan(|turn| / 2) about `turn`.
+/// Rotates about the body's own axes by the Cayley map: by 2 atan(|turn| / 2) about `turn`.
 REPOSE_INLINE Quaternions turned_by(const Quaternions& q, const Vectors& turn) {
   const Vectors half = turn * Double4(.5);
   const Quaternions r = {q.x + q.w * half.x + q.y * half.z - q.z * half.y,
@@ -166,7 +166,7 @@ REPOSE_INLINE void store_rows(const Vectors& xyz, const Double4& w, Structure* f
 }
 
 /// Half a step of torque, then of constant-torque rolling friction as a dry brake on the spin: it
-/// takes at most what there is, so that a grain comes to rest instead of trembling.
+/// removes at most the spin there is, so that a grain comes to rest instead of jittering.
 struct SpinKick {
   Vectors momentum;
   Vectors own_momentum;  ///< in the body's own axes
@@ -233,7 +233,7 @@ REPOSE_INLINE void place_clumps(Bodies& bodies, std::size_t k, const std::vector
   }
 }
 
-/// Of those that are present: the last loads of the others stay.
+/// Only for bodies present; the others keep their last loads.
 REPOSE_INLINE void begin_loads(Bodies& bodies, std::size_t k, const Double4& mass,
                                const Vector& gravity) {
   const Rows weights = rows_of({mass * gravity.x(), mass * gravity.y(), mass * gravity.z()}, {});
@@ -244,7 +244,7 @@ REPOSE_INLINE void begin_loads(Bodies& bodies, std::size_t k, const Double4& mas
   }
 }
 
-/// What four bodies take from one pass of a step's start to the next.
+/// What four bodies carry from pass to pass of start_step().
 struct FourKicks {
   Vectors own_momentum;     ///< angular, in the body's own axes
   Vectors momentum_change;  ///< angular
@@ -284,7 +284,7 @@ REPOSE_INLINE void turn_four(Bodies& bodies, std::size_t k, double timestep,
   const auto is_present = load(&bodies.presence[k]) > Double4(0);
   const Vectors inverse_inertia = load_vectors(bodies.inverse_inertia, k);
   const Quaternions old_q = load_orientation(bodies, k);
-  // Seen from the body the momentum turns: dl/dt = l x omega (Euler), here by half a step.
+  // In the body frame the momentum rotates: dl/dt = l x omega (Euler), here by half a step.
   const Vectors middle = own_momentum + own_momentum.cross(own_momentum.times(inverse_inertia)) *
                                             Double4(timestep / 2);
   const Quaternions q = turned_by(old_q, middle.times(inverse_inertia) * Double4(timestep));
@@ -294,7 +294,7 @@ REPOSE_INLINE void turn_four(Bodies& bodies, std::size_t k, double timestep,
   store(select(is_present, q.w, old_q.w), &bodies.orientation[3][k]);
 }
 
-/// What contacts need to know of the spins, and where the spheres are.
+/// Stores what contacts need to know about spins, and places the spheres.
 REPOSE_INLINE void show_four(Bodies& bodies, std::size_t k, const std::vector<GrainKind>& kinds,
                              const Vectors& momentum_change) {
   const Axes axes = axes_of(load_orientation(bodies, k));
@@ -308,8 +308,8 @@ REPOSE_INLINE void show_four(Bodies& bodies, std::size_t k, const std::vector<Gr
   if (!bodies.is_round) place_clumps(bodies, k, kinds, axes);
 }
 
-/// Some bodies are worked on in short passes, in which a processor works on several fours at once:
-/// in one long one each would wait for its own square roots.
+/// Short passes let the processor overlap several fours; in one long pass each would stall on its
+/// own square roots.
 REPOSE_TARGET_CLONES void start_some(Bodies& bodies, const Chunk& fours,
                                      const std::vector<GrainKind>& kinds, const Vector& gravity,
                                      double timestep) {

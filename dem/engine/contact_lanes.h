@@ -9,12 +9,12 @@
 #include "dem/engine/lanes.h"
 #include "dem/wall/wall_set.h"
 
-/// What the contacts of a pair share: how the two move, and what all of them together do to both.
-/// Four contacts in lanes, on their way from pass to pass: see four_contacts.h.
+/// What the contacts of a pair share: the relative motion of the bodies and the total load on both.
+/// Four contacts in lanes, as passed from pass to pass: see four_contacts.h.
 
 namespace repose::dem {
 
-/// What touches what: spheres of bodies a, and Others, which are spheres of bodies b or the
+/// The two sides of contacts: spheres of bodies a, and Others, which are spheres of bodies b or
 /// FacetContacts of walls.
 template <typename Other>
 struct Sides {
@@ -27,28 +27,28 @@ struct Sides {
   const Row* positions_b = nullptr;
 };
 
-/// What the contacts of one pair of grains, or of a grain and a wall, do to both.
+/// Load from the contacts of one pair of grains, or of a grain and a wall, on both.
 struct PairLoad {
-  Double4 force;     ///< row: on a, N; b gets the opposite. w: how many spheres touch; 0: nothing
-                     ///< else stands here
-  Double4 torque_a;  ///< row: N m; w: what constant-torque rolling friction may take
+  Double4 force;     ///< row: on a, N; b gets the opposite. w: number of contacts; 0: the rest
+                     ///< is not set
+  Double4 torque_a;  ///< row: N m; w: the most that constant-torque rolling friction can resist
   Double4 torque_b;  ///< likewise
 
   REPOSE_INLINE bool is_empty() const { return force[3] == 0; }
 };
 
-/// A ActivePair in the step at hand.
+/// An ActivePair in the current step.
 struct PairMotion {
   Row position_a;
   Row apart;          ///< from a's centre of mass to b's
-  Row velocity;       ///< of b against a, both as rigid as they are, at a's centre; w: reduced mass
-  Row spin;           ///< of b against a; w: max_stable_damping(), N s/m
+  Row velocity;       ///< of b relative to a, both as rigid bodies, at a's centre; w: reduced mass
+  Row spin;           ///< of b relative to a; w: max_stable_damping(), N s/m
   Row velocity_kick;  ///< see BodyMotion; w: damper limit
   Row spin_kick;
   Row mean_spin;
 };
 
-/// Those of the last step, or of this pair when it has more.
+/// The body's contacts at the last step, or those of this pair if more.
 REPOSE_INLINE double contacts_of(const ActivePair& pair, const BodyMotion& body) {
   return std::max(static_cast<double>(pair.touching), body.velocity.w);
 }
@@ -57,7 +57,7 @@ REPOSE_INLINE double contacts_per_kg(const ActivePair& pair, const BodyMotion& b
   return contacts_of(pair, body) / body.spin.w;
 }
 
-/// Contacts' velocities are those at a's centre and, for their arms, the difference of both spins.
+/// A contact's velocity is that at a's centre plus, by its arm, the difference of the spins.
 template <typename Other>
 REPOSE_INLINE void set_motion(const ActivePair& pair, const Sides<Other>& sides, double timestep,
                               PairMotion& motion) {
@@ -84,28 +84,29 @@ REPOSE_INLINE void set_motion(const ActivePair& pair, const Sides<Other>& sides,
   store_row((spin_a + spin_b) * .5, motion.mean_spin);
 }
 
-/// Begins the load of a pair whose contacts are to be added.
+/// Resets the load of a pair before its contacts are added.
 REPOSE_INLINE void begin_load(PairLoad& load) {
   load.force = {};
   load.torque_a = {};
 }
 
-/// Once all contacts are added: b's torque is that of the opposite force, seen from b's centre.
-/// Until then the force's w is what constant-torque rolling friction may take from b.
+/// To be called once all contacts are added: b's torque is that of the opposite force about b's
+/// centre. Until then the force's w holds the most that constant-torque rolling friction can resist
+/// on b.
 REPOSE_INLINE void finish_load(const ActivePair& pair, const PairMotion& motion, PairLoad& load) {
   const Double4 force = load.force;
   load.force = with_w(force, static_cast<double>(pair.touching));
   load.torque_b = with_w(cross_of_rows(load_row(motion.apart), force) - load.torque_a, force[3]);
 }
 
-/// Up to four contacts; those beyond the last one repeat it.
+/// Up to four contacts; unused lanes repeat the last one.
 template <typename Other>
 struct FourActiveContacts {
   std::array<const PlacedSphere*, kLanes> sphere;
   std::array<const Other*, kLanes> other;
   std::array<ContactHistory*, kLanes> memory;
   std::array<const ActivePair*, kLanes> pair;
-  std::array<const PairMotion*, kLanes> motion;  ///< of round grains: none
+  std::array<const PairMotion*, kLanes> motion;  ///< unused for round grains
   std::array<PairLoad*, kLanes> load;
 };
 
@@ -125,11 +126,11 @@ struct Contacts {
   Vec3<Double4> arm_a;  ///< from a's centre of mass to the contact
   Vec3<Double4> arm_b;
   Vec3<Double4> apart;  ///< from a's centre of mass to b's
-  Vec3<Double4> spin;   ///< of b against a
+  Vec3<Double4> spin;   ///< of b relative to a
   Double4 smaller_radius;
 };
 
-/// Four contacts on their way from pass to pass.
+/// Four contacts, as passed from pass to pass.
 template <typename Other>
 struct Four {
   FourActiveContacts<Other> touching = {};
@@ -139,16 +140,16 @@ struct Four {
   ContactForce<Double4> force;
 };
 
-/// Of the contacts of a pair, by direction: the sum of energies times n n^T, n the normals.
+/// Elastic energy of a pair's contacts by direction: the sum of energy times n n^T, n the normals.
 struct DirectedEnergy {
   double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
 };
 
-/// Room for what is worked on, kept so that nothing is allocated.
+/// Reusable buffers, so that nothing is allocated per step.
 template <typename Other>
 struct ContactWork {
   std::vector<PairMotion> motions;
-  std::vector<DirectedEnergy> energies;  ///< of each pair, where damping is shared
+  std::vector<DirectedEnergy> energies;  ///< of each pair, if damping is shared
   std::array<Four<Other>, kBatchesPerBlock> fours;
 };
 

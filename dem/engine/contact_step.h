@@ -5,7 +5,8 @@
 
 namespace repose::dem {
 
-/// What the contacts of one step depend on: where the bodies and walls are, and what rules.
+/// What the contacts of one step depend on: where bodies and walls are, the contact laws, the time
+/// step.
 struct ContactStep {
   const Bodies& bodies;
   const WallSet& walls;

@@ -11,18 +11,18 @@
 #include "dem/engine/rolling.h"
 #include "dem/wall/wall_set.h"
 
-/// The forces of contacts, four at a time: of one pair of grains or of several, or of grains and
-/// walls. Some fours go together through three passes: where they are and how they move, what
-/// pushes, and what that does to the bodies. In short passes a processor works on several fours at
-/// once; in one long one each would wait for its own square roots.
+/// Contact forces, four at a time: of one pair of grains or several, or of grains and walls.
+/// Batches of fours go through three passes: geometry and motion, forces, loads on the bodies. In
+/// short passes the processor overlaps several fours; in one long pass each would stall on its own
+/// square roots.
 ///
-/// Shared damping: each contact of a pair damps with its share of the reduced mass, by elastic
-/// energy U,
+/// Shared damping: each contact of a pair damps with its share of the reduced mass, in proportion
+/// to elastic energy U,
 ///   D_i = c sqrt(S_i m* U_i / sum U_j),
-/// c sqrt(S m* / N) for N equal ones. Together they are D = b sqrt(m*) F / sqrt(2 U), F and U the
-/// sums, b = c sqrt(6/5), which restores the same whatever F(d) is (dem/THEORY.md, "Several
+/// c sqrt(S m* / N) for N equal ones. Their sum is D = b sqrt(m*) F / sqrt(2 U), F and U the sums,
+/// b = c sqrt(6/5), which gives the same restitution whatever F(d) is (dem/THEORY.md, "Several
 /// contacts at once"; Feng 2026, arXiv:2604.02533; for the cause Kodam et al. 2009, Chemical
-/// Engineering Science 64, 3466). Of a contact in another direction U_j cos^2 counts. Proved by
+/// Engineering Science 64, 3466). A contact in another direction counts with U_j cos^2. Proved by
 /// SharedDamping.* and, in `repose verify`, "spheres one after another".
 
 namespace repose::dem {
@@ -35,12 +35,12 @@ REPOSE_INLINE Columns others_of(const FourActiveContacts<PlacedSphere>& four) {
   });
 }
 
-/// The facets' normals; w: how far they are.
+/// The facets' normals; w: their distances.
 REPOSE_INLINE Columns others_of(const FourActiveContacts<FacetContact>& four) {
   return gather([&](std::size_t k) { return load_row(*four.other[k]); });
 }
 
-/// What depends on whether two spheres meet or a sphere and a wall: how deep, and reduced sizes.
+/// Overlap and reduced sizes, which differ between two spheres and a sphere on a wall.
 REPOSE_INLINE void set_geometry(const FourActiveContacts<PlacedSphere>& /*four*/,
                                 const Columns& apart, const Double4& radius, Contacts& c) {
   const Double4 distance = sqrt(apart.xyz.squared_norm());
@@ -89,12 +89,12 @@ struct BodyMotions {
         velocity_kick(gather([&](std::size_t k) { return load_row(motion(k).velocity_kick); }).xyz),
         spin_kick(gather([&](std::size_t k) { return load_row(motion(k).spin_kick); }).xyz) {}
 
-  /// See contacts_per_kg(): a round grain's pair has one.
+  /// See contacts_per_kg(): a pair of round grains has one contact.
   REPOSE_INLINE Double4 contacts_per_kg() const { return max(Double4(1), velocity.w) / spin.w; }
 };
 
-/// Of round grains, straight from the bodies: each pair has one contact, so that nothing is saved
-/// by working it out once a pair. The same as set_motion().
+/// For round grains, straight from the bodies: each pair has one contact, so computing it once per
+/// pair would save nothing. Same result as set_motion().
 REPOSE_INLINE Motions motions_of_round(const FourActiveContacts<PlacedSphere>& four,
                                        const Sides<PlacedSphere>& sides, const Vec3<Double4>& apart,
                                        double timestep) {
@@ -158,7 +158,7 @@ REPOSE_INLINE void find_contacts(Four<Other>& of, const Sides<Other>& sides, dou
   of.springs = {memory.xyz, memory.w, of.last_normal_force};
 }
 
-/// Adds the contact in a lane.
+/// Adds the contact in one lane.
 REPOSE_INLINE void add_energy(double energy, const Vec3<Double4>& normals, std::size_t lane,
                               DirectedEnergy& sum) {
   const Vec3<double> n = {normals.x[lane], normals.y[lane], normals.z[lane]};
@@ -170,13 +170,13 @@ REPOSE_INLINE void add_energy(double energy, const Vec3<Double4>& normals, std::
   sum.zx += energy * (n.z * n.x);
 }
 
-/// Hertz's, 8/15 E* sqrt(R* d) d^2, without the factor that is the same for all contacts of a pair.
+/// Hertz energy, 8/15 E* sqrt(R* d) d^2, without the factor common to all contacts of a pair.
 REPOSE_INLINE Double4 elastic_energy(const ContactGeometry<Double4>& touch) {
   return sqrt(touch.reduced_radius * touch.overlap) * (touch.overlap * touch.overlap);
 }
 
-/// Parallel contacts are those of several spheres: one sphere in the corner of a mesh, or among
-/// glued grains, touches several things.
+/// Only contacts of different spheres are parallel. Those of a single sphere, in the corner of a
+/// mesh or among glued grains, do not share.
 template <typename Other>
 REPOSE_INLINE bool shares_damping(const ActivePair& pair, const Bodies& bodies) {
   if (pair.touching < 2) return false;
@@ -185,8 +185,8 @@ REPOSE_INLINE bool shares_damping(const ActivePair& pair, const Bodies& bodies) 
   return bodies.first_sphere[a + 1] - bodies.first_sphere[a] > 1;
 }
 
-/// Leaves to each contact the mass that it damps.
-/// @param energies  of each pair; zero: it does not share
+/// Reduces the mass of each contact to the share that it damps.
+/// @param energies  one per pair; zero: not shared
 template <typename Other>
 REPOSE_INLINE void share_damping(std::span<Four<Other>> fours, const ActivePair* pairs,
                                  const std::vector<DirectedEnergy>& energies) {
@@ -210,8 +210,8 @@ REPOSE_INLINE void share_damping(std::span<Four<Other>> fours, const ActivePair*
 }
 
 /// Sets the damping of contacts whose restitution depends on the speed, by the equivalent speed of
-/// each (speed_damping.h). Where damping is shared the mass is a contact's share, by elastic
-/// energy: all contacts of a pair then have the same.
+/// each (SpeedDamping in restitution.h). If damping is shared, the mass is the contact's share by
+/// elastic energy, so the elastic term is the same for all parallel contacts of a pair.
 template <typename Other>
 REPOSE_INLINE void damp_by_speed(const Four<Other>& four, Law<Double4>& law) {
   const ContactGeometry<Double4>& touch = four.contacts.touch;
@@ -228,7 +228,7 @@ REPOSE_INLINE void damp_by_speed(const Four<Other>& four, Law<Double4>& law) {
   }
 }
 
-/// Of both bodies about the contact; a wall has no inertia.
+/// Reduced inertia of both bodies about the contact; a wall's is infinite.
 template <typename Other>
 REPOSE_INLINE Double4 contact_inertia(const Four<Other>& of, const Sides<Other>& sides) {
   const auto about_contact =
@@ -247,8 +247,8 @@ REPOSE_INLINE Double4 contact_inertia(const Four<Other>& of, const Sides<Other>&
   return reduced(a, b);
 }
 
-/// The moment of inertia that a contact's torques may act on as if alone: of each body the smallest
-/// one, shared by all that it touches; a wall has no end of it.
+/// The moment of inertia that a contact's torques may act on as if alone: each body's smallest one,
+/// divided by its number of contacts; a wall's is infinite.
 template <typename Other>
 REPOSE_INLINE Double4 inertia_share(const Four<Other>& of, const Sides<Other>& sides) {
   const auto& pair = of.touching.pair;
@@ -264,7 +264,7 @@ REPOSE_INLINE Double4 inertia_share(const Four<Other>& of, const Sides<Other>& s
   return 1 / (a + b);
 }
 
-/// The torque on a of the models that work on the relative spin.
+/// Torque on a in the models based on the relative spin.
 template <RollingModel model, typename Other>
 REPOSE_INLINE Vec3<Double4> rolling_torque(const Four<Other>& of, const Sides<Other>& sides,
                                            const Law<Double4>& law, double timestep) {
@@ -278,7 +278,7 @@ REPOSE_INLINE Vec3<Double4> rolling_torque(const Four<Other>& of, const Sides<Ot
                         .inertia_share = {},
                         .contact_inertia = {}};
   const auto& memory = of.touching.memory;
-  // The row's w is the push: read, and left alone.
+  // The row's w is the normal force: loaded but not changed.
   Vec3<Double4> spring = gather([&](std::size_t k) { return load(memory[k]->rolling.data()); }).xyz;
   Vec3<Double4> torque;
   if constexpr (model == RollingModel::relative_constant_torque) {
@@ -294,10 +294,10 @@ REPOSE_INLINE Vec3<Double4> rolling_torque(const Four<Other>& of, const Sides<Ot
   return torque;
 }
 
-/// What four contacts do to the bodies: in lanes.
+/// Loads of four contacts on the bodies, in lanes.
 struct Loads {
   Vec3<Double4> torque_a;
-  Double4 rolling_a;  ///< what constant-torque rolling friction may take
+  Double4 rolling_a;  ///< the most that constant-torque rolling friction can resist
   Double4 rolling_b;
 };
 
@@ -315,7 +315,8 @@ REPOSE_INLINE Loads loads_of(const Four<Other>& of, const Sides<Other>& sides, d
   return loads;
 }
 
-/// Adds to the loads of their pairs. Those of round grains, which have one contact, are whole then.
+/// Adds to the loads of their pairs. Round grains have one contact, so their loads are then
+/// complete.
 template <bool is_round, typename Other>
 REPOSE_INLINE void add_loads(const Four<Other>& of, const Loads& loads) {
   const Rows torques_a = rows_of(loads.torque_a, loads.rolling_a);
@@ -336,7 +337,7 @@ REPOSE_INLINE void add_loads(const Four<Other>& of, const Loads& loads) {
   }
 }
 
-/// @return how deep they are, as fractions of the smaller sphere's radius
+/// @return overlaps as fractions of the smaller sphere's radius
 template <bool is_round, RollingModel model, typename Other>
 REPOSE_INLINE Double4 finish_contacts(const Four<Other>& of, const Sides<Other>& sides,
                                       double timestep) {
@@ -376,7 +377,7 @@ REPOSE_INLINE Double4 finish_all(std::span<const Four<Other>> fours, const Sides
   return {};
 }
 
-/// The second pass: what pushes.
+/// The second pass: forces.
 template <bool is_by_speed, typename Other>
 REPOSE_INLINE void find_forces(Four<Other>& four, double timestep) {
   Springs<Double4> springs = four.springs;
@@ -386,13 +387,13 @@ REPOSE_INLINE void find_forces(Four<Other>& four, double timestep) {
   four.springs = springs;
 }
 
-/// What lanes beyond the last contact write, for nothing.
+/// Dummy output of lanes beyond the last contact.
 struct SpareLane {
   ContactHistory memory;
   PairLoad load;
 };
 
-/// What the contacts of some pairs are worked out from, and with.
+/// Inputs and buffers for the contacts of some pairs.
 template <typename Other>
 struct ContactBatch {
   std::span<const ActivePair> pairs;
@@ -414,7 +415,7 @@ REPOSE_INLINE void set_lane(FourActiveContacts<Other>& four, std::size_t lane,
   four.load[lane] = &meeting.loads[pair.number];
 }
 
-/// Puts the last contacts into lanes, fewer than four: the lanes beyond repeat the last one.
+/// Puts the last contacts, fewer than four, into lanes: unused lanes repeat the last one.
 template <typename Other>
 void set_last(FourActiveContacts<Other>& four, std::span<const ActiveContact> last,
               const ContactBatch<Other>& meeting, SpareLane& spare) {
@@ -438,8 +439,8 @@ REPOSE_INLINE void set_lanes(FourActiveContacts<Other>& four, std::span<const Ac
   }
 }
 
-/// The first pass, of up to kBatchesPerBlock fours.
-/// @return what goes on to the others
+/// The first pass, for up to kBatchesPerBlock fours.
+/// @return the fours for the other passes
 template <bool is_round, typename Other>
 REPOSE_INLINE std::span<Four<Other>> find_all(std::span<const ActiveContact> touching,
                                               const ContactBatch<Other>& meeting, double timestep,
@@ -452,7 +453,8 @@ REPOSE_INLINE std::span<Four<Other>> find_all(std::span<const ActiveContact> tou
   return fours.first(count);
 }
 
-/// Before the passes, with shared damping: where the elastic energy of each pair's contacts acts.
+/// Before the passes, if damping is shared: the elastic energy of each pair's contacts by
+/// direction.
 template <typename Other>
 REPOSE_INLINE void find_energies(std::span<const ActiveContact> touching,
                                  const ContactBatch<Other>& meeting, const Bodies& bodies,
@@ -473,9 +475,9 @@ REPOSE_INLINE void find_energies(std::span<const ActiveContact> touching,
   }
 }
 
-/// The loads of pairs, each the sum over its contacts in the order given; their memories are
-/// brought up to date.
-/// @tparam is_round  that each body is one sphere about its centre is known, which saves time
+/// Computes the loads of pairs, each the sum over its contacts in the given order, and updates the
+/// contact histories.
+/// @tparam is_round  every body is known to be one sphere about its centre, which saves time
 /// @return the deepest overlap, as a fraction of the smaller sphere's radius
 template <bool is_round, typename Other>
 REPOSE_INLINE double add_contacts(std::span<const ActiveContact> touching,
@@ -490,7 +492,7 @@ REPOSE_INLINE double add_contacts(std::span<const ActiveContact> touching,
   }
   Double4 deepest;
   SpareLane spare;
-  // Round grains have one contact, which shares with nobody.
+  // Round grains have a single contact, so nothing is shared.
   const bool is_shared = !is_round && step.contacts.damping() == DampingModel::shared;
   if (is_shared) find_energies(touching, meeting, step.bodies, work.energies, spare);
   for (std::size_t at = 0; at < touching.size(); at += kTogether) {

@@ -14,13 +14,14 @@ namespace repose::dem {
 
 namespace {
 
-/// A byte of 1 or 0 for each lane.
+/// A byte of 1 or 0 per lane.
 constexpr std::array<std::uint32_t, 16> kBytesOf = {
     0x00000000, 0x00000001, 0x00000100, 0x00000101, 0x00010000, 0x00010001, 0x00010100, 0x00010101,
     0x01000000, 0x01000001, 0x01000100, 0x01000101, 0x01010000, 0x01010001, 0x01010100, 0x01010101};
 
-/// Notes which of `count` spheres from `first` on touch now. What has parted forgets.
-/// @return whether they are others than before
+/// Notes which of `count` near pairs of spheres from `first` on touch now. Clears the history of
+/// those that have separated.
+/// @return whether that has changed
 REPOSE_INLINE bool note_touching(NeighbourList& list, std::size_t first, std::size_t count,
                                  unsigned now) {
   if (count == kLanes) {
@@ -39,8 +40,8 @@ REPOSE_INLINE bool note_touching(NeighbourList& list, std::size_t first, std::si
   return has_changed;
 }
 
-/// Looks which of `count` near spheres from `first` on touch.
-/// @return whether they are others than before
+/// Finds which of `count` near pairs of spheres from `first` on touch.
+/// @return whether that has changed
 REPOSE_INLINE bool look_at(const ContactStep& step, NeighbourList& list, std::size_t first,
                            std::size_t count) {
   const Double4 minus_w = Double4::Vector4{1, 1, 1, -1};
@@ -51,13 +52,13 @@ REPOSE_INLINE bool look_at(const ContactStep& step, NeighbourList& list, std::si
     return b - a * minus_w;  // w: the sum of the radii
   });
   const Double4 distance2 = apart.xyz.squared_norm();
-  // Spheres of one centre have no normal to push along: the audit stops such a run.
+  // Concentric spheres have no contact normal: the audit stops such a run.
   const LaneMask touches = (distance2 < apart.w * apart.w) & (distance2 > Double4(0));
   return note_touching(list, first, count, bits_of(touches) & ((1U << count) - 1));
 }
 
-/// Looks which of the near spheres from ... to - 1 touch.
-/// @return whether they are others than before
+/// Finds which of the near pairs of spheres from ... to - 1 touch.
+/// @return whether that has changed
 REPOSE_INLINE bool look_at_all(const ContactStep& step, NeighbourList& list, std::size_t from,
                                std::size_t to) {
   bool has_changed = false;
@@ -92,7 +93,7 @@ Sides<PlacedSphere> sides_of(const Bodies& bodies, std::vector<ContactHistory>& 
           .positions_b = bodies.position.data()};
 }
 
-/// Looks up which of pairs `first` ... touch, and what their contacts share.
+/// Looks up which of the pairs from `first` on touch, and what their contacts share.
 void look_up(const ContactStep& step, const NeighbourList& list, std::size_t first,
              std::size_t count, TouchingChunk& chunk) {
   chunk.pairs.clear();
@@ -147,7 +148,7 @@ double find_pair_loads(const ContactStep& step, NeighbourList& list, std::size_t
 
 namespace {
 
-/// Whether number `k` of those listed near a wall touches, and where.
+/// Whether entry `k` of the near facets touches, and where.
 bool touches(const ContactStep& step, const NearWall& pair, const NeighbourList& list,
              std::size_t k, FacetContact& where) {
   const NearFacet& near = list.facets[k];
@@ -155,7 +156,7 @@ bool touches(const ContactStep& step, const NearWall& pair, const NeighbourList&
   return step.walls.touches(pair.wall, near.facet, sphere.centre, sphere.radius, where);
 }
 
-/// A sphere that moves on to the next facet of a wall takes its contact's memory along.
+/// A sphere that moves on to another facet of a wall keeps its contact history.
 void hand_over_memories(const ContactStep& step, const NearWall& pair, NeighbourList& list) {
   FacetContact where;
   auto first = static_cast<std::size_t>(pair.first);
@@ -175,7 +176,7 @@ void hand_over_memories(const ContactStep& step, const NearWall& pair, Neighbour
   }
 }
 
-/// What touches, of some pairs.
+/// Active contacts of some grains with walls.
 struct TouchingWalls {
   std::vector<FacetContact> facets;
   std::vector<ActivePair> pairs;
@@ -208,7 +209,7 @@ Sides<FacetContact> sides_of(const Bodies& bodies, const WallMotions& wall_motio
           .positions_b = wall_motions.position.data()};
 }
 
-/// Adds what touches. What has parted forgets.
+/// Adds active contacts, clears the history of those that have separated.
 void add_touching(const ContactStep& step, const NearWall& near, std::size_t number,
                   NeighbourList& list, TouchingWalls& touching) {
   if (step.walls.has_facets(near.wall)) hand_over_memories(step, near, list);
@@ -233,7 +234,7 @@ void add_touching(const ContactStep& step, const NearWall& near, std::size_t num
 REPOSE_TARGET_CLONES
 double add_wall_contacts(TouchingWalls& touching, const Sides<FacetContact>& sides,
                          const ContactStep& step, PairLoad* loads) {
-  // Few contacts are with walls: what is_round saves is not worth compiling all once more.
+  // Few contacts are with walls: the gain from is_round is not worth compiling everything again.
   return add_contacts<false>(touching.contacts, touching.pairs, sides, step, touching.work, loads);
 }
 
@@ -256,7 +257,7 @@ void find_wall_motions(const WallSet& walls, WallMotions& motions) {
 
 double find_wall_loads(const ContactStep& step, const WallMotions& wall_motions,
                        NeighbourList& list, std::size_t first, std::span<PairLoad> loads) {
-  // Kept from call to call, so that nothing is allocated once they are large enough.
+  // Kept between calls, so that nothing is allocated once large enough.
   thread_local TouchingWalls touching;
   const auto from = static_cast<std::size_t>(list.walls[first].first);
   const NearWall& last = list.walls[first + loads.size() - 1];
@@ -293,7 +294,7 @@ REPOSE_INLINE void add_to_b(Bodies& bodies, const Pair& pair, const PairLoad& lo
   add_row(load.torque_b, sum.torque);
 }
 
-/// What the wall's motion puts into the grain, W.
+/// Power that the wall's motion puts into the grain, W.
 double power_of(const PairLoad& load, const BodyMotion& wall) {
   double power = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -5,27 +5,27 @@
 
 #include "dem/vector.h"
 
-/// Four numbers in one: the inner loops work on four bodies or four contacts at once.
+/// Four numbers in one: the inner loops process four bodies or four contacts at once.
 ///
-/// Formulas are templates on Number, which is double or Double4. Each lane is rounded as a double
-/// is, whatever the machine's vectors are like, so that results do not depend on the machine nor on
-/// which four go together. Vectors of this kind are an extension of GCC and Clang.
+/// Formulas are templates on Number, which is double or Double4. Each lane is rounded like a
+/// double, whatever the machine's vector width, so results depend neither on the machine nor on
+/// which four are grouped. These vectors are a GCC and Clang extension.
 ///
-/// Rows are four numbers in memory: four rows are read and written by lane or by coordinate.
+/// Rows are four numbers in memory; four rows can be accessed by lane or by coordinate.
 
 namespace repose::dem {
 
 inline constexpr std::size_t kLanes = 4;
 
-/// Fours that go through a step's passes together: few enough to stay in the nearest cache.
+/// Fours that go through a step's passes together: few enough to stay in the L1 cache.
 inline constexpr std::size_t kBatchesPerBlock = 8;
 
-/// Functions of lanes are only fast as part of a loop.
+/// Functions on lanes are only fast when inlined into a loop.
 #define REPOSE_INLINE inline __attribute__((always_inline))
 
-/// Compiled for machines with vectors of four (AVX2), for those that have more of them (AVX-512),
-/// and for all others; the best one runs. Under sanitizers the last alone: they make all slow to
-/// compile, and that of threads is not ready when the program chooses.
+/// Compiled for machines with vectors of four (AVX2), with more registers (AVX-512), and for all
+/// others; the best version is chosen at startup. Under sanitizers only the last: they slow
+/// compilation, and ThreadSanitizer is not ready yet when the version is chosen.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define REPOSE_TARGET_CLONES __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))
@@ -33,7 +33,7 @@ inline constexpr std::size_t kBatchesPerBlock = 8;
 #define REPOSE_TARGET_CLONES
 #endif
 
-/// Yes or no in each lane.
+/// A boolean per lane.
 struct alignas(32) LaneMask {
   long long __attribute__((vector_size(32))) bits;
 
@@ -46,20 +46,20 @@ struct alignas(32) LaneMask {
   }
 };
 
-// Aligned by name: on its own a vector's alignment would differ from machine to machine.
+// Explicitly aligned: the default alignment of a vector differs from machine to machine.
 struct alignas(32) Double4 {
   using Vector4 = double __attribute__((vector_size(32)));
   Vector4 numbers = {};
 
   Double4() = default;
-  // By hand, so that structures of lanes too are copied as whole vectors and not in halves.
+  // Handwritten, so that structures of lanes are also copied as whole vectors, not in halves.
   REPOSE_INLINE Double4(const Double4& from) : numbers(from.numbers) {}
   REPOSE_INLINE Double4& operator=(const Double4& from) {
     numbers = from.numbers;
     return *this;
   }
   ~Double4() = default;
-  // NOLINTNEXTLINE(google-explicit-constructor): a vector of four is nothing else
+  // NOLINTNEXTLINE(google-explicit-constructor): it only wraps this vector
   REPOSE_INLINE Double4(const Vector4& from) : numbers(from) {}
   REPOSE_INLINE explicit Double4(double of_all) : numbers(Vector4{} + of_all) {}
 
@@ -113,7 +113,7 @@ REPOSE_INLINE bool any(const LaneMask& mask) {
   return (mask.bits[0] | mask.bits[1] | mask.bits[2] | mask.bits[3]) != 0;
 }
 
-/// A bit for each lane, the first one's lowest.
+/// A bit per lane, the first lane's lowest.
 REPOSE_INLINE unsigned bits_of(const LaneMask& mask) {
   using Bits = long long __attribute__((vector_size(32)));
   const Bits bits = mask.bits & Bits{1, 2, 4, 8};
@@ -137,8 +137,8 @@ REPOSE_INLINE Number abs(const Number& x) {
   return max(x, -x);
 }
 
-/// Four numbers anywhere in memory. (memcpy would move them in halves. `using` would lose the
-/// alignment with Clang, which then takes them for aligned ones.)
+/// Four numbers anywhere in memory. (memcpy would move them in halves. With `using`, Clang would
+/// drop the attribute and assume full alignment.)
 // NOLINTNEXTLINE(modernize-use-using)
 typedef double FourNumbers __attribute__((vector_size(32), aligned(8), may_alias));
 static_assert(alignof(FourNumbers) == alignof(double));
@@ -150,7 +150,7 @@ REPOSE_INLINE void store(const Double4& lanes, double* to) {
   *reinterpret_cast<FourNumbers*>(to) = lanes.numbers;
 }
 
-/// A vector of space, in each lane.
+/// A 3-D vector, one per lane.
 template <typename Number>
 struct Vec3 {
   Number x = {};
@@ -162,7 +162,7 @@ struct Vec3 {
   REPOSE_INLINE Vec3 cross(const Vec3& v) const {
     return {y * v.z - z * v.y, z * v.x - x * v.z, x * v.y - y * v.x};
   }
-  /// Coordinate by coordinate.
+  /// Component-wise product.
   REPOSE_INLINE Vec3 times(const Vec3& v) const { return {x * v.x, y * v.y, z * v.z}; }
   REPOSE_INLINE Vec3 operator-() const { return {-x, -y, -z}; }
   REPOSE_INLINE Vec3& operator+=(const Vec3& v) { return *this = *this + v; }
@@ -188,13 +188,13 @@ REPOSE_INLINE Vec3<Number> select(const Mask& mask, const Vec3<Number>& yes,
   return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
-/// A vector and a number beside it, as long as Double4.
+/// A vector plus a number, as large as a Double4.
 struct alignas(32) Row {
   Vector xyz = Vector::Zero();
   double w = 0;
 };
 
-/// The first four numbers of a structure of doubles: a Row, say.
+/// The first four numbers of a structure of doubles, such as a Row.
 template <typename Structure>
 REPOSE_INLINE Double4 load_row(const Structure& from) {
   static_assert(sizeof(Structure) >= sizeof(Double4));
@@ -232,19 +232,19 @@ REPOSE_INLINE Rows rows_of(const Vec3<Double4>& xyz, const Double4& w) {
   return turned({{xyz.x, xyz.y, xyz.z, w}});
 }
 
-/// Gathers a row of each lane.
+/// Gathers one row per lane.
 template <typename RowOfLane>
 REPOSE_INLINE Columns gather(const RowOfLane& row) {
   return columns_of({{row(0), row(1), row(2), row(3)}});
 }
 
-/// Gathers a number of each lane.
+/// Gathers one number per lane.
 template <typename NumberOfLane>
 REPOSE_INLINE Double4 each(const NumberOfLane& number) {
   return Double4::Vector4{number(0), number(1), number(2), number(3)};
 }
 
-/// Of two rows; w: 0.
+/// Cross product of two rows; w: 0.
 REPOSE_INLINE Double4 cross_of_rows(const Double4& u, const Double4& v) {
   const auto next = [](const Double4& row) __attribute__((always_inline)) {
     return Double4(__builtin_shufflevector(row.numbers, row.numbers, 1, 2, 0, 3));
@@ -252,7 +252,7 @@ REPOSE_INLINE Double4 cross_of_rows(const Double4& u, const Double4& v) {
   return next(u * next(v) - next(u) * v);
 }
 
-/// Puts a number into a row's w.
+/// Replaces a row's w.
 REPOSE_INLINE Double4 with_w(const Double4& row, double number) {
   return select(Double4(Double4::Vector4{0, 0, 0, 1}) > Double4(0), Double4(number), row);
 }

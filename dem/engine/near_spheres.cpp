@@ -14,23 +14,23 @@ namespace repose::dem {
 
 namespace {
 
-/// Margin of a grain at rest, as a fraction of its reach.
+/// Margin of a grain at rest, as a fraction of its bounding radius.
 constexpr double kRestMargin = .001;
-/// A moving grain's margin lasts for about so many steps ...
+/// A moving grain's margin lasts for about this many steps ...
 constexpr double kHorizonSteps = 20;
-/// ... but is at most this fraction of its reach.
+/// ... but is at most this fraction of its bounding radius.
 constexpr double kGreatestMargin = .6;
 
 using Orientations = std::array<std::vector<double>, 4>;
 
-/// Distance from one of four rows to the other, squared.
+/// Squared distance between corresponding rows, for four of them.
 REPOSE_INLINE Double4 distance2(const Row* from, const Row* to) {
   return gather([&](std::size_t k) { return load_row(to[k]) - load_row(from[k]); })
       .xyz.squared_norm();
 }
 
-/// Which of four bodies' spheres can have come farther than a share of their margins, by moving and
-/// by turning.
+/// For which of four bodies spheres can have moved farther than a share of the margin, by
+/// translation and rotation.
 REPOSE_INLINE LaneMask have_used(double share, const Bodies& bodies, const Row* position,
                                  const Orientations& orientation, const double* margin,
                                  std::size_t k) {
@@ -123,7 +123,7 @@ void CellGrid::choose_cells(const Bodies& bodies) {
   if (present == 0) low = high = Vector::Zero();
   corner_ = low;
   cell_size_ = std::max(2 * widest, 1e-12);
-  // Stray grains far away must not make for more cells than grains.
+  // Stray grains far away must not create far more cells than grains.
   const Vector extent = high - low;
   const double max_cells = 8.0 * static_cast<double>(present) + 64;
   const auto cells_at = [&extent](double size) {
@@ -157,7 +157,7 @@ void CellGrid::sort(const Bodies& bodies, const Margins& margins) {
     auto& end = cell_start_[static_cast<std::size_t>(cell_of_[k]) + 1];
     cell_bodies_[static_cast<std::size_t>(--end)] = static_cast<int>(k);
   }
-  // Filled from the back, every entry now holds the start of its own cell, shifted by one.
+  // Filled from the back, every entry now holds its cell's start, shifted by one.
   cell_start_.erase(cell_start_.begin());
   cell_start_.push_back(static_cast<int>(cell_bodies_.size()));
 }
@@ -188,15 +188,16 @@ void CellGrid::add_near(int body, std::vector<int>& near) const {
 
 namespace {
 
-/// Most clumps' spheres at once.
+/// Spheres per vector: all those of most clumps.
 constexpr std::size_t kTogether = 16;
 using Floats = float __attribute__((vector_size(64)));
 using Ints16 = int __attribute__((vector_size(64)));
 using Ints8 = int __attribute__((vector_size(32)));
 using Ints4 = int __attribute__((vector_size(16)));
 
-/// Of the reach of both grains: more than rounding can take from a distance between their spheres.
-/// Differences are rounded once to 2^-24, then squares and sums, each of at most twice that reach.
+/// As a fraction of both grains' reach: exceeds the rounding error of a distance between their
+/// spheres. Differences are rounded once to 2^-24, then squares and sums, each of at most twice
+/// that reach.
 constexpr double kRounding = 1e-6;
 
 REPOSE_INLINE Floats load_floats(const float* from) {
@@ -205,7 +206,7 @@ REPOSE_INLINE Floats load_floats(const float* from) {
   return numbers;
 }
 
-/// A bit for each lane, the first one's lowest.
+/// A bit per lane, the first lane's lowest.
 REPOSE_INLINE unsigned bits_of_all(const Ints16& mask) {
   const Ints16 bits =
       mask & Ints16{1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
@@ -218,7 +219,7 @@ REPOSE_INLINE unsigned bits_of_all(const Ints16& mask) {
   return static_cast<unsigned>(two[0] | two[1]);
 }
 
-/// Spheres from `first` to `end` - 1, with the arrays that tell where they are.
+/// Spheres from `first` to `end` - 1, with the arrays of their positions and radii.
 struct SphereRange {
   std::array<const float*, 3> offset;
   const float* radius;
@@ -226,8 +227,8 @@ struct SphereRange {
   std::size_t end;
 };
 
-/// Calls visit(number) for each whose surface is less than `reach` from a point, seen from their
-/// body's centre.
+/// Calls visit(number) for each sphere whose surface is less than `reach` from a point, which is
+/// relative to the body's centre.
 template <typename Visit>
 REPOSE_INLINE void for_each_within(const SphereRange& spheres, const std::array<float, 3>& point,
                                    float reach, const Visit& visit) {

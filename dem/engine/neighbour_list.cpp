@@ -10,7 +10,7 @@
 namespace repose::dem {
 namespace {
 
-/// All is listed anew after about so many steps while a wall moves.
+/// While a wall moves, everything is listed again after about this many steps.
 constexpr double kWallSteps = 80;
 
 template <typename Pair>
@@ -24,8 +24,8 @@ bool comes_before(const NearWall& x, const NearWall& y) {
   return std::tie(x.body, x.wall) < std::tie(y.body, y.wall);
 }
 
-/// Groups of near spheres or facets, and what each of these remembers. Sorted, in groups and within
-/// them.
+/// Groups of near spheres or facets, and the contact history of each. Sorted by group and within
+/// groups.
 template <typename Group, typename Item>
 struct Groups {
   std::vector<Group>& groups;
@@ -46,7 +46,7 @@ Groups<NearWall, NearFacet> walls_in(NeighbourList& list) {
   return {list.walls, list.facets, list.wall_memories};
 }
 
-/// Gives the items of a group the memories that they had in the same group of an old list.
+/// Copies the histories of a group's items from the same group of an old list.
 template <typename Group, typename Item>
 void carry(const Groups<Group, Item>& old, const Group& old_group, const Groups<Group, Item>& now,
            const Group& group) {
@@ -60,7 +60,7 @@ void carry(const Groups<Group, Item>& old, const Group& old_group, const Groups<
   }
 }
 
-/// The same, of all groups.
+/// The same for all groups.
 template <typename Group, typename Item>
 void carry_all(const Groups<Group, Item>& old, const Groups<Group, Item>& now) {
   auto old_group = old.groups.begin();
@@ -71,19 +71,18 @@ void carry_all(const Groups<Group, Item>& old, const Groups<Group, Item>& now) {
   }
 }
 
-/// Makes a list from an old one, in order: most groups as they were, some in place of those of
-/// bodies that have moved.
+/// Builds a list from an old one, in order: most groups are kept, those of moved bodies are
+/// replaced.
 template <typename Group, typename Item, typename HasMoved>
 class Renewal {
  public:
-  /// @param has_moved  tells of a group of the old list whether it is left out
+  /// @param has_moved  whether a group of the old list is left out
   Renewal(const Groups<Group, Item>& old, const Groups<Group, Item>& now, const HasMoved& has_moved)
       : old_(old), now_(now), has_moved_(has_moved), at_(old.groups.begin()) {
     now_.clear();
   }
 
-  /// Makes a group of the items that `add_items` adds at the end, if there are any, with the
-  /// memories that they had.
+  /// Makes a group of the items that `add_items` appends, if any, with their previous histories.
   template <typename AddItems>
   void add(Group group, const AddItems& add_items) {
     keep_until(&group);
@@ -101,7 +100,7 @@ class Renewal {
  private:
   using At = typename std::vector<Group>::const_iterator;
 
-  /// Takes over what comes before a group, or all that is left.
+  /// Keeps the old groups that come before `next`, or all that are left.
   void keep_until(const Group* next) {
     const auto is_before = [&](const At& at) {
       return at != old_.groups.end() && (next == nullptr || comes_before(*at, *next));
@@ -176,11 +175,11 @@ void Neighbours::set_wall_margin(const Bodies& bodies, const WallSet& walls, dou
   }
   const double speed = walls.greatest_speed(time_s, occupied);
   wall_margin_ = speed * timestep_s * kWallSteps;
-  // Half a step earlier: times are rounded.
+  // Half a step early, as times are rounded.
   due_s_ = speed > 0 ? time_s + (kWallSteps - .5) * timestep_s : HUGE_VAL;
 }
 
-/// All pairs of which one has moved, in order.
+/// All pairs with a moved body, in order.
 void Neighbours::find_pairs(const Bodies& bodies, int threads) {
   grid_.sort(bodies, margins_);
   found_.resize(std::max(found_.size(), chunks_of(bodies.size(), kLookedAtTogether)));
@@ -198,7 +197,7 @@ void Neighbours::find_pairs(const Bodies& bodies, int threads) {
            [](const NeighbourPair& x, const NeighbourPair& y) { return comes_before(x, y); });
 }
 
-/// Those that a body has, if it has moved; with another that has moved too, if it is the first.
+/// Pairs of a body that has moved; if both have moved, the first one lists the pair.
 void Neighbours::add_pairs(const Bodies& bodies, std::size_t body, Found& found) const {
   if (has_moved_[body] == 0 || !bodies.is_present(body)) return;
   const auto number = static_cast<int>(body);
@@ -290,7 +289,7 @@ void Neighbours::index_by_body(std::size_t bodies) {
   }
   for (std::size_t k = 2; k < start.size(); ++k) start[k] += start[k - 1];
   list_.body_pairs.resize(2 * list_.grains.size());
-  // start[body + 1] runs from where the body's part starts to where it ends.
+  // start[body + 1] advances from the start of the body's part to its end.
   for (std::size_t k = 0; k < list_.grains.size(); ++k) {
     for (const int body : {list_.grains[k].a, list_.grains[k].b}) {
       const int at = start[static_cast<std::size_t>(body) + 1]++;

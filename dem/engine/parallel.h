@@ -10,7 +10,8 @@
 
 namespace repose::dem {
 
-/// Calls body(index) for 0 ... count - 1; in chunks on all threads of the arena when more than one.
+/// Calls body(index) for 0 ... count - 1; in chunks on all threads of the arena if `threads` is
+/// above 1.
 template <typename Body>
 void for_each_index(std::size_t count, int threads, const Body& body, std::size_t chunk = 64) {
   if (threads == 1) {
@@ -23,12 +24,12 @@ void for_each_index(std::size_t count, int threads, const Body& body, std::size_
                     });
 }
 
-/// How many chunks of up to `length` are needed for `size`.
+/// Number of chunks of up to `length` needed for `size`.
 inline std::size_t chunks_of(std::size_t size, std::size_t length) {
   return (size + length - 1) / length;
 }
 
-/// Some of many, which one thread works on.
+/// A range of indices that one thread works on.
 struct Chunk {
   std::size_t number = 0;
   std::size_t first = 0;
@@ -37,10 +38,10 @@ struct Chunk {
   std::size_t size() const { return end - first; }
 };
 
-/// Bodies, or pairs of them, that are looked at together when what is near is listed.
+/// Bodies, or pairs of them, per chunk when neighbours are listed.
 inline constexpr std::size_t kLookedAtTogether = 256;
 
-/// Calls body(chunk) for chunks of up to `length` of 0 ... size - 1, likewise.
+/// Likewise calls body(chunk) for chunks of up to `length` of 0 ... size - 1.
 template <typename Body>
 void for_each_chunk(std::size_t size, std::size_t length, int threads, const Body& body) {
   for_each_index(
@@ -51,7 +52,7 @@ void for_each_chunk(std::size_t size, std::size_t length, int threads, const Bod
       1);
 }
 
-/// Sorts what has one order only.
+/// Sorts items whose order is unique (no two are equivalent).
 template <typename Item, typename Before>
 void sort_all(std::vector<Item>& items, int threads, const Before& before) {
   if (threads == 1) {

@@ -6,13 +6,13 @@
 
 namespace repose::dem {
 
-/// What rolling friction needs to know of a touching pair. Body b of a wall has no inertia.
+/// What rolling friction needs to know about a contact. If b is a wall, only a's inertia counts.
 template <typename Number>
 struct Roll {
   Vec3<Number> normal;  ///< unit, from a to b
-  Vec3<Number> spin;    ///< of a against b, rad/s
+  Vec3<Number> spin;    ///< of a relative to b, rad/s
   Number normal_force = {};
-  Number last_force = {};  ///< normal, of the step before
+  Number last_force = {};  ///< normal, of the previous step
   Number overlap = {};
   Number reduced_radius = {};
   Number inertia_share = {};    ///< see inertia_share(), kg m^2
@@ -25,15 +25,15 @@ REPOSE_INLINE Vec3<Number> limited(const Vec3<Number>& torque, const Number& lim
   return torque * select(size > limit, Number(limit / size), Number(1));
 }
 
-/// LIGGGHTS's `cdt`: mu_r F_n R* against the relative spin, less its part about the normal
+/// LIGGGHTS's `cdt`: mu_r F_n R* against the relative spin, minus the part about the normal
 /// (LIGGGHTS-PUBLIC manual, "rolling_friction cdt").
 ///
-/// What does not spin is held by a spring up to that limit, as in Coulomb friction (Cundall and
-/// Strack 1979, Geotechnique 29). It only stands for a law that is rigid, and so is as stiff as a
-/// step allows, kStiffness J / step^2 with J the contact's share of the inertia; a damper of
-/// kDamping of the critical one stops its oscillation. Both stay stable however many contacts a
-/// body has (dem/THEORY.md). Proved by Rolling.* in tests/dem/rolling_test.cpp.
-/// @param spring  torque on a, N m, from step to step, with its part about the normal
+/// Without spin, a spring holds up to that limit, as in Coulomb friction (Cundall and Strack 1979,
+/// Geotechnique 29). It merely approximates a rigid law, so it is as stiff as the time step allows,
+/// kStiffness J / step^2 with J the contact's share of the inertia; a damper of kDamping times the
+/// critical one stops its oscillation. Both stay stable however many contacts a body has
+/// (dem/THEORY.md). Proved by Rolling.* in tests/dem/rolling_test.cpp.
+/// @param spring  torque on a, N m, kept from step to step, including the part about the normal
 template <typename Number>
 REPOSE_INLINE Vec3<Number> relative_constant_torque(const Roll<Number>& roll,
                                                     const Law<Number>& law, double timestep,
@@ -48,14 +48,15 @@ REPOSE_INLINE Vec3<Number> relative_constant_torque(const Roll<Number>& roll,
   return full - roll.normal * roll.normal.dot(full);
 }
 
-/// Part of a step in which a spring is below its limit. Where it begins to yield that is up to
-/// there: with the whole step or none of it, what its damper takes would depend on the time step
-/// (clumps on a plate rolled 1.6 % farther at .14 of the stable one; now within .1 %).
+/// Fraction of a step in which a spring is below its limit; for the step in which it begins to
+/// yield, the part up to there. With all or nothing, the energy taken by its damper would depend on
+/// the time step (clumps on a plate rolled 1.6 % farther at .14 of the stable one; now within .1
+/// %).
 template <typename Number>
 REPOSE_INLINE Number part_below(const Number& old_limit, const Number& limit,
                                 const Number& old_size, const Number& size) {
   const auto yields = size >= limit;
-  const auto yielded = old_size >= .999999999 * old_limit;  // less than by rounding
+  const auto yielded = old_size >= .999999999 * old_limit;  // allows for rounding
   const Number begins = max(Number{}, min(Number(1), Number(limit - old_size) / (size - old_size)));
   const auto grows = size > old_size;
   const Number up_to_there = select(grows, begins, Number{});
@@ -63,8 +64,8 @@ REPOSE_INLINE Number part_below(const Number& old_limit, const Number& limit,
 }
 
 /// Elastic-plastic spring-dashpot: k_r = 2.25 k_n mu_r^2 R*^2 up to mu_r R* F_n, and below that
-/// limit a damper of .3 of the critical (Ai, Chen, Rotter, Ooi 2011, Powder Technology 206, model
-/// C, eqs. 27-33, with the stiffness of Jiang et al. 2005). Proved by Rolling.* in
+/// limit a damper of .3 times the critical one (Ai, Chen, Rotter, Ooi 2011, Powder Technology 206,
+/// model C, eqs. 27-33, with the stiffness of Jiang et al. 2005). Proved by Rolling.* in
 /// tests/dem/rolling_test.cpp.
 /// @param spring  torque on a, N m, from step to step
 template <typename Number>

@@ -18,9 +18,10 @@
 namespace repose::dem {
 namespace {
 
-/// Steps of this fraction of the stable one are short enough for whatever the contacts do.
+/// Steps up to this fraction of the stable one are not to blame for deep contacts.
 constexpr double kShortStep = .5;
-/// Energy that may appear between two audits, as a fraction of what is in motion and in springs.
+/// Energy that may appear between two audits, as a fraction of kinetic and elastic energy plus that
+/// of a fall by a grain's size.
 constexpr double kEnergyTolerance = .05;
 
 bool is_time(double timestep_s) { return timestep_s > 0 && std::isfinite(timestep_s); }
@@ -69,7 +70,7 @@ class Simulation::State {
   explicit State(SimulationSetup given)
       : setup(checked(std::move(given))), walls(setup.walls), arena(setup.threads) {}
 
-  /// Throws std::out_of_range when there is no such grain.
+  /// Throws std::out_of_range if there is no such grain.
   std::size_t index(int grain) const;
   double time_s() const { return equal_steps.time_s(step, setup.timestep_s); }
   ContactStep contact_step() const { return {bodies, walls, setup.contacts, setup.timestep_s}; }
@@ -81,7 +82,7 @@ class Simulation::State {
   void audit_overlap_at_rest();
   void audit_energy();
   [[noreturn]] void stop(const std::string& what, const std::string& fix) const;
-  /// Energy jumps that the run itself did not make: grains and walls put in or taken out.
+  /// After energy jumps not caused by the dynamics: grains or walls added or removed.
   void restart_energy_audit() { has_energy_mark = false; }
 
   SimulationSetup setup;
@@ -140,7 +141,7 @@ void Simulation::State::audit() {
   audit_energy();
 }
 
-/// At regular intervals, and whenever contacts are deeper than any before.
+/// At regular intervals, and when contacts become much deeper than before.
 void Simulation::State::audit_contacts() {
   const auto frequency = highest_frequency(bodies, walls, setup.contacts, neighbours.list());
   const double step_of_stable = frequency ? setup.timestep_s * *frequency / 2 : 0;
@@ -163,7 +164,7 @@ void Simulation::State::audit_contacts() {
 void Simulation::State::audit_overlap_at_rest() {
   const double depth = overlaps.take_lasting();
   if (depth <= OverlapWatch::kDeepestAtRest) return;
-  // By Hertz's law the weight that a contact carries goes with its overlap to the power of 3/2.
+  // By Hertz's law the weight that a contact carries grows with overlap^(3/2).
   const double stiffer = 2 * std::pow(depth / OverlapWatch::kDeepestAtRest, 1.5);
   stop(fmt::format("grain {} has sunk into what it lies on by {:.0f} % of a radius",
                    deepest_body(bodies, walls, setup.contacts, neighbours.list()), 100 * depth),
@@ -177,7 +178,7 @@ void Simulation::State::audit_energy() {
   const Energies now = energies_of(bodies, walls, setup.contacts, list, setup.gravity);
   if (!std::isfinite(now.sum_j())) stop("its energy is no number", fix);
   const double made = now.sum_j() - energy_mark_j - wall_work_j;
-  double falls = 0;  // what a fall by a grain's size sets free
+  double falls = 0;  // energy released by a fall by each grain's size
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (bodies.is_present(k))
       falls += bodies.mass[k] * setup.gravity.norm() * bodies.bounding_radius[k];

@@ -37,11 +37,11 @@ struct SimulationSetup {
   int threads = 1;
   /// Grains whose centre falls below this height leave the simulation, m.
   double floor_m = -1e300;
-  /// Steps between two audits of energy, time step and overlap; deep contacts are seen at once.
+  /// Steps between audits of energy, time step and overlap; deep contacts are caught at once.
   int audit_steps = 500;
 };
 
-/// The sums that tell how a run is doing.
+/// Total energies, which show whether a run is healthy.
 struct Energies {
   double kinetic_j = 0;    ///< of translation and spin
   double potential_j = 0;  ///< of gravity, from z = 0
@@ -54,7 +54,7 @@ struct Energies {
 struct ContactState {
   int grain_a = 0;
   int sphere_a = 0;                      ///< within the grain
-  int grain_b = 0;                       ///< -1 - wall for a wall
+  int grain_b = 0;                       ///< -1 - wall number for a wall
   int sphere_b = 0;                      ///< facet of a wall
   double contact_radius_m = 0;           ///< at the last step
   Vector tangential_n = Vector::Zero();  ///< spring force on a
@@ -62,7 +62,7 @@ struct ContactState {
   double normal_force_n = 0;             ///< normal force of the last step
 };
 
-/// Since when all steps are as long as they are now.
+/// Since when the time step has had its current length.
 struct EqualSteps {
   std::int64_t since_step = 0;
   double since_s = 0;
@@ -72,7 +72,7 @@ struct EqualSteps {
   }
 };
 
-/// All that a run needs to go on bit for bit.
+/// All that a run needs to resume bit for bit.
 struct Checkpoint {
   std::int64_t step = 0;
   EqualSteps equal_steps = {};
@@ -80,18 +80,19 @@ struct Checkpoint {
   std::vector<Vector> angular_momentum;  ///< kg m^2/s; `Grain::spin` follows from it
   std::vector<Vector> force;             ///< of the last step, N
   std::vector<Vector> torque;            ///< of the last step, N m
-  std::vector<double> rolling_limit;     ///< torque that rolling friction may take, N m
+  std::vector<double>
+      rolling_limit;  ///< most that constant-torque rolling friction can resist, N m
   std::vector<bool> is_present;
   std::vector<ContactState> contacts;
 };
 
 /// Rigid grains and walls in contact, moved step by step.
 ///
-/// Equations and sources: dem/THEORY.md. The same setup and grains give the same bytes at any
-/// number of threads. Not to be used from two threads at once.
+/// Equations and sources: dem/THEORY.md. The same setup and grains give identical results with any
+/// number of threads. Not thread-safe.
 class Simulation {
  public:
-  /// Throws base::InputError when the setup cannot be simulated.
+  /// Throws base::InputError if the setup cannot be simulated.
   explicit Simulation(SimulationSetup setup);
   Simulation(SimulationSetup setup, const Checkpoint& from);
   ~Simulation();
@@ -102,24 +103,24 @@ class Simulation {
 
   /// Adds a grain and returns its number.
   int add(const Grain& grain);
-  /// Takes a grain out; its number stays its own.
+  /// Removes a grain; its number is not reused.
   void remove(int grain);
-  /// Sets a wall in motion from now on, or to rest with an empty list. Times are of the simulation.
+  /// Sets a wall in motion from now on, or at rest with an empty list. Times are simulation times.
   void set_motions(int wall, std::vector<Motion> motions);
-  /// Takes a wall out.
+  /// Removes a wall.
   void remove_wall(int wall);
 
-  /// Of all steps from now on, s. Throws base::InputError unless it is above 0.
+  /// Sets the length of all steps from now on, s. Throws base::InputError unless above 0.
   void set_timestep(double timestep_s);
 
-  /// Throws UnstableRun when the audit finds the run gone wrong.
+  /// Throws UnstableRun if the audit finds that the run has gone wrong.
   void advance(std::int64_t steps);
 
-  /// Of now: its walls move as they were last told to, its time step is that of the next step.
+  /// The current setup: walls carry their latest motion, the time step is that of the next step.
   const SimulationSetup& setup() const;
   std::int64_t step() const;
   double time_s() const;
-  int grain_count() const;  ///< of all ever added
+  int grain_count() const;  ///< all ever added
   bool is_present(int grain) const;
   Grain grain(int grain) const;
   double mass_kg(int grain) const;
@@ -130,7 +131,7 @@ class Simulation {
   std::vector<ContactState> contacts() const;
   /// Deepest overlap at the last step, as a fraction of the smaller sphere's radius.
   double deepest_overlap() const;
-  /// Largest time step that is stable for the contacts there are now, s; none without contacts.
+  /// Largest stable time step for the current contacts, s; std::nullopt without contacts.
   std::optional<double> stable_timestep_s() const;
   Checkpoint checkpoint() const;
 

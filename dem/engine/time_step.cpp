@@ -19,16 +19,17 @@ double impact_overlap(double reduced_mass, double reduced_young, double reduced_
       15 * reduced_mass * speed * speed / (16 * reduced_young * std::sqrt(reduced_radius)), .4);
 }
 
-/// Stiffness over mass, 1/s^2, of a grain pressed onto a flat wall in one direction, by `overlap`:
-/// all of its spheres that reach the wall act on it at once.
+/// Stiffness over mass, 1/s^2, of a grain pressed onto a flat wall along `down` by `overlap`: all
+/// of its spheres that reach the wall act at once.
 Matrix6 stiffness_on_wall(const ClumpShape& shape, double mass, const ContactLaw& law,
                           const Vector& down, double overlap) {
   double lowest = 0;
   for (const ClumpSphere& sphere : shape.spheres) {
     lowest = std::max(lowest, down.dot(sphere.centre) + sphere.radius);
   }
-  // Free motion of a point `arm` away along n: 1/m_eff = 1/m + (arm x n) I^-1 (arm x n). The sum of
-  // stiffness over mass of all contacts and directions is the trace, no less than any eigenvalue.
+  // Effective mass of a point at `arm` along n: 1/m_eff = 1/m + (arm x n) I^-1 (arm x n). The sum
+  // of stiffness over mass of all contacts and directions is the trace, no less than any
+  // eigenvalue.
   Matrix6 sum = Matrix6::Zero();
   const Vector roots = (mass * shape.gyration_m2).cwiseSqrt().cwiseInverse();
   for (const ClumpSphere& sphere : shape.spheres) {

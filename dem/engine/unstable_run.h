@@ -11,26 +11,26 @@ class UnstableRun : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How deep a run's contacts get. It sees every step: an impact is over long before the next audit.
-/// Overlaps are fractions of the smaller sphere's radius.
+/// Tracks how deep a run's contacts get. It sees every step, as an impact is over long before the
+/// next audit. Overlaps are fractions of the smaller sphere's radius.
 class OverlapWatch {
  public:
-  /// Hertz's law is one of small strains: no impact of a run worth reporting is as deep as that ...
+  /// Hertz's law holds for small strains: no impact of a valid run is as deep as this ...
   static constexpr double kDeepest = .3;
-  /// ... and nothing lies as deep as that in what carries it.
+  /// ... and nothing at rest sinks as deep as this into its support.
   static constexpr double kDeepestAtRest = .2;
 
   /// @param deepest  overlap of this step
-  /// @return whether it is so much deeper than any before that the run must be looked at now
+  /// @return whether it is so much deeper than before that the run must be audited now
   bool see(double deepest) {
     lasting_ = std::min(lasting_, deepest);
     if (deepest <= next_look_) return false;
-    // The frequency of a contact goes with the fourth root.
+    // The frequency of a contact grows with the fourth root of the overlap.
     next_look_ = std::min(2 * deepest, kDeepest);
     return true;
   }
 
-  /// The least of all steps since this was asked last; 0 the first time, when they may be few.
+  /// The smallest of all steps since the last call; 0 at the first call, as the steps may be few.
   double take_lasting() {
     const double lasting = has_begun_ ? lasting_ : 0;
     lasting_ = 1;

@@ -23,15 +23,15 @@ namespace repose::dem {
 
 namespace {
 
-/// Grains across and upwards that a bulk has at least.
+/// Minimum number of grains across and along the height of a bulk.
 constexpr double kFewestInBox = 4;
-/// Grains that a slot is wide at least. Source: To, Lai and Pak (2001), Jamming of granular flow in
-/// a two-dimensional hopper, Physical Review Letters 86, 71: outlets of five diameters and more
-/// hardly ever jam, in two dimensions, which a slot is nearest to.
+/// Minimum width of a slot, in grains. Source: To, Lai and Pak (2001), Jamming of granular flow in
+/// a two-dimensional hopper, Physical Review Letters 86, 71: in two dimensions, which a slot
+/// resembles most, outlets of at least five diameters hardly ever jam.
 constexpr double kSlot = 5;
-/// Sizes in mm are rounded once they are in m.
+/// Allows for rounding of sizes converted from mm to m.
 constexpr double kBoxRounding = 1e-9;
-/// Of the upper box's floor and the gate.
+/// Thickness of the upper box's floor and the gate.
 constexpr double kThickness_m = .002;
 
 void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::Faults& errors) {
@@ -54,8 +54,8 @@ void check_sizes(const DrawDownProtocol& protocol, double grain_m, base::Faults&
   at_least("length_m", protocol.length_m, protocol.slot_m + 2 * kFewestInBox * grain_m,
            fmt::format("the slot and {:g} grain lengths on either side of it", kFewestInBox),
            "a longer box or a narrower slot");
-  // A heap that spreads from wall to wall is as high as its share of the fill and its own slope
-  // over half a slot, which the two slopes above lack: at 45 degrees this much.
+  // A heap that spreads from wall to wall is as high as its share of the fill plus its own slope
+  // over half a slot, which the two slopes above lack: at 45 degrees, this much.
   at_least("drop_m", protocol.drop_m, protocol.fill_m + .5 * protocol.slot_m,
            "the lower heap must not reach the slot: the fill and half the slot",
            "a greater drop or a lower fill");
@@ -79,7 +79,7 @@ void check(const Model& model, const DrawDownProtocol& protocol) {
   errors.throw_if_any();
 }
 
-/// An upright wall without end through a point, that grains are in front of.
+/// An infinite vertical wall through a point, with the grains on its `inwards` side.
 Wall pane(const Model& model, const Vector& point, const Vector& inwards) {
   return part_wall(
       model, WallPart::pane, Plane{},
@@ -106,12 +106,12 @@ std::vector<Wall> walls_of(const Model& model, const DrawDownProtocol& protocol)
           slab(protocol, -lip, lip)};
 }
 
-/// Places over the upper box.
+/// Random places over the upper box.
 RainPlan rain_of(const DrawDownProtocol& protocol, double reach_m) {
   const double along = protocol.length_m - 2 * reach_m;
   const double across = protocol.depth_m - 2 * reach_m;
   const auto place = [along, across](Random& random) {
-    // In this order: the order of evaluation of arguments is not fixed.
+    // Separate statements, as argument evaluation order is unspecified.
     const double x = along * (random.uniform() - .5);
     const double y = across * (random.uniform() - .5);
     return Vector(x, y, 0);
@@ -147,19 +147,19 @@ ExperimentRun filled_boxes(const Model& model, const DrawDownProtocol& protocol,
 namespace {
 
 constexpr double kLongestFlow_s = 60;
-/// Shares of the run when the gate opens, and of the flow.
+/// Fraction of the run before the gate opens; usual duration of the flow.
 constexpr double kFilled = .35;
 constexpr double kUsualFlow_s = 3;
-/// What stays must be this many grain diameters high somewhere to be more than a layer.
+/// The remaining grains must be this many diameters high somewhere to be more than a layer.
 constexpr double kLowestSlope = 1.5;
-/// The last grains trickle: the flow is taken to be over when this much of it is through.
+/// The last grains trickle: the flow counts as over when this fraction has passed.
 constexpr double kThrough = .95;
-/// The steady part of the flow, which begins from rest and ends along slopes.
+/// The steady part of the flow, without the start from rest and the end along slopes.
 constexpr double kSteadyFrom = .1, kSteadyTo = .5;
 
-/// What went through the slot.
+/// Flow through the slot.
 struct Flow {
-  std::vector<double> passed_s;  ///< since the gate opened, when each grain was below; ascending
+  std::vector<double> passed_s;  ///< times after opening at which each grain had passed; ascending
   bool is_at_rest = true;
 };
 
@@ -184,8 +184,8 @@ Boxes boxes_of(const Simulation& simulation, const DrawDownProtocol& protocol) {
   return boxes;
 }
 
-/// Opens the gate and waits until all grains rest. A gate that is pulled away at a metre per second
-/// is open before a grain has fallen by a few diameters: here it is gone at once.
+/// Opens the gate and waits until all grains rest. A gate pulled away at a metre per second is open
+/// before a grain has fallen by a few diameters; here it disappears at once.
 Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
   Simulation& simulation = run.simulation();
   simulation.remove_wall(kDrawDownGate);
@@ -214,7 +214,7 @@ Flow discharge(ExperimentRun& run, const DrawDownProtocol& protocol) {
   return flow;
 }
 
-/// Why there is nothing to read, where that is so.
+/// Throws NoMeasurement with the reason if there is nothing to measure.
 void check_flow(const ExperimentRun& run, const DrawDownProtocol& protocol, const Flow& flow) {
   const Simulation& simulation = run.simulation();
   const int grains = boxes_of(simulation, protocol).grains();
@@ -245,13 +245,13 @@ void check_flow(const ExperimentRun& run, const DrawDownProtocol& protocol, cons
       flow.passed_s.size(), grains));
 }
 
-/// When a fraction of what runs out was below the slot, s.
+/// Time at which a fraction of the discharge had passed the slot, s.
 double time_of(const Flow& flow, double fraction) {
   const auto grain = std::ceil(fraction * static_cast<double>(flow.passed_s.size())) - 1;
   return flow.passed_s[static_cast<std::size_t>(std::max(0.0, grain))];
 }
 
-/// Grains a second while the flow is steady; none where it is too short for that.
+/// Grains per second during steady flow; std::nullopt if too short.
 std::optional<double> rate_s(const Flow& flow) {
   const double steady_s = time_of(flow, kSteadyTo) - time_of(flow, kSteadyFrom);
   const double grains = (kSteadyTo - kSteadyFrom) * static_cast<double>(flow.passed_s.size());
@@ -293,7 +293,7 @@ std::vector<ProtocolKey> keys_of_draw_down(Protocol& protocol) {
           length_key("drop_mm", "250", draw_down.drop_m)};
 }
 
-/// Boxes as much larger or smaller as their slot must be for these grains.
+/// Scales the boxes with the slot that these grains need.
 void adapt_draw_down(Protocol& protocol, const UsualBench& bench) {
   constexpr double kSlotGrains = 5.2, kStep_m = .005;
   const auto stepped = [](double size_m) { return kStep_m * std::ceil(size_m / kStep_m - 1e-9); };

@@ -24,7 +24,7 @@ constexpr double kLongestTurn = .1;
 
 using Parts = Eigen::Vector4d;  // of a quaternion: x, y, z, w
 
-/// How an orientation turns with a spin about the body's own axes.
+/// Rate of change of an orientation for a spin about the body's own axes.
 Parts rate_of(const Quaternion& orientation, const Vector& own_spin) {
   return .5 * (orientation * Quaternion(0, own_spin.x(), own_spin.y(), own_spin.z())).coeffs();
 }
@@ -37,7 +37,7 @@ Grain after_flight(const Grain& grain, const ClumpShape& shape, const Vector& gr
   after.position += time_s * grain.velocity + .5 * time_s * time_s * gravity_m_s2;
   after.velocity += time_s * gravity_m_s2;
 
-  // Angular momentum by mass.
+  // Angular momentum per mass.
   const Vector momentum =
       grain.orientation *
       (grain.orientation.conjugate() * grain.spin).cwiseProduct(shape.gyration_m2);
@@ -65,7 +65,7 @@ Grain after_flight(const Grain& grain, const ClumpShape& shape, const Vector& gr
 
 namespace {
 
-/// Steps between two reports; every step is looked at, since an impact is some 48 steps long.
+/// Steps between reports; every step is examined, as an impact takes only some 48.
 constexpr int kStepsBetweenReports = 16;
 
 void find_errors_of(std::string_view experiment, double height_m, int grains,
@@ -82,16 +82,16 @@ void find_errors_of(std::string_view experiment, double height_m, int grains,
                   .fix = "10."});
 }
 
-/// What the grains fall on, and how.
+/// The ground and the conditions of a drop.
 struct Dropping {
   double height_m = 0;
   int grains = 0;
   std::vector<Wall> ground;
   double top_m = 0;   ///< highest point of the ground
-  double tile_m = 0;  ///< places are random within as much; 0: all are alike
+  double tile_m = 0;  ///< random places within this side length; 0: all places are equivalent
 };
 
-/// How one grain's bounce goes.
+/// State of one grain's bounce.
 struct Bounce {
   double first_touch_m = 0;  ///< height of the centroid
   double lowest_m = 0;       ///< lowest height of the centroid so far
@@ -107,7 +107,7 @@ bool touches_nothing(const Simulation& simulation, int number) {
   return (simulation.force_n(number) - weight).norm() <= 1e-9 * weight.norm();
 }
 
-/// Reads the top of the flight of a grain that touches nothing, and will not until then.
+/// Computes the top of the flight of a grain that touches nothing until then.
 void read_top(Bounce& bounce, const Simulation& simulation, const Grain& grain) {
   const SimulationSetup& setup = simulation.setup();
   const ClumpShape& shape = setup.kinds.front().shape;
@@ -119,9 +119,9 @@ void read_top(Bounce& bounce, const Simulation& simulation, const Grain& grain) 
   bounce.lowest_point_m = lowest_m(shape, top);
 }
 
-/// At the top of its first flight a grain stops rising and nothing touches it: its time comes out
-/// beforehand once it is so high that no part of it can reach the wall. One that stops while it
-/// stands on the wall is toppling, and still bouncing.
+/// The bounce ends when a grain stops rising without contact, at the top of its first flight; that
+/// is computed in advance once the grain is too high for any part of it to reach the wall. A grain
+/// that stops rising while in contact is toppling, and still bouncing.
 void follow(Bounce& bounce, const Simulation& simulation, double top_m, int number) {
   const Grain grain = simulation.grain(number);
   const double height = grain.position.z();
@@ -135,14 +135,14 @@ void follow(Bounce& bounce, const Simulation& simulation, double top_m, int numb
   if (touches_nothing(simulation, number)) read_top(bounce, simulation, grain);
 }
 
-/// Where in their fall grains are put: just above the ground, as fast as the fall made them,
-/// sqrt(2 g h) from rest; or at rest where they are let go.
+/// Where in their fall grains start: just above the ground, at the speed sqrt(2 g h) of the fall;
+/// or at rest at the release height.
 struct FallStart {
   double above_m = 0;
   double speed_m_s = 0;
 };
 
-/// The grains above the ground, far enough from each other not to meet.
+/// Adds the grains above the ground, far enough apart not to meet.
 std::vector<Bounce> drop_grains(Simulation& simulation, const Dropping& dropping,
                                 const FallStart& start, Random& random) {
   const ClumpShape& shape = simulation.setup().kinds.front().shape;
@@ -183,8 +183,8 @@ Readings readings_of(const std::vector<Bounce>& bounces) {
           {"never_rose", never_rose}};
 }
 
-/// The same grains as a camera sees them: held at their height at first, until all lie still or,
-/// where they bounce or roll on and on, for many times as long as they fall.
+/// The same grains for frames: held at their height at first, until all are at rest or, if they
+/// keep bouncing or rolling, for many times the duration of the fall.
 void show_drop(const Model& model, const Dropping& dropping, Random random,
                const Observers& observers) {
   constexpr double kMaxFalls = 30;
@@ -200,7 +200,7 @@ void show_drop(const Model& model, const Dropping& dropping, Random random,
   }
 }
 
-/// One that is filmed is done a second time for that.
+/// If frames are recorded, the experiment is run a second time for them.
 Repeat dropped(const Model& model, const Dropping& dropping, Random random, std::uint64_t seed,
                const Observers& observers) {
   if (observers.record.frame) show_drop(model, dropping, random, observers);
@@ -210,8 +210,8 @@ Repeat dropped(const Model& model, const Dropping& dropping, Random random, std:
                     {observers.report, unseen});
   std::vector<Bounce> bounces =
       drop_grains(run.simulation(), dropping, {.speed_m_s = speed}, random);
-  // No flight takes longer than the fall did; a grain that has not left the wall within as long
-  // again and the time to topple lies still.
+  // No flight lasts longer than the fall; a grain still on the wall after twice that plus the time
+  // to topple lies still.
   const double longest_s = 2 * speed / kStandardGravity_m_s2 +
                            4 * std::sqrt(2 * model.grain.reach_m() / kStandardGravity_m_s2);
   bool are_over = false;
@@ -239,7 +239,7 @@ void find_low_error(const DropProtocol& protocol, base::Faults& errors) {
                   .fix = "the lower of the two heights, such as 0.05."});
 }
 
-/// Adds to a drop what the second one gives.
+/// Adds the results of the lower drop.
 void add_low(const Repeat& low, Repeat& repeat) {
   repeat.readings["low_rebound_mm"] = low.value;
   repeat.steps += low.steps;
@@ -293,13 +293,13 @@ std::vector<ProtocolKey> keys_of_drop(Protocol& protocol) {
           count_key("grains", "10", kMaxGrains, drop.grains), low};
 }
 
-/// From lying flat below to standing above, beside the height of the fall.
+/// The height of the fall, plus the difference between lying flat below and standing above.
 Range possible_drop(const Model& model, const Protocol& protocol) {
   const double height_m = protocol.as<DropProtocol>().height_m;
   return from_to(0, 1e3 * (height_m + 2 * model.grain.reach_m()));
 }
 
-/// A rebound is no higher than the fall, and the grain from lying to standing.
+/// A rebound is at most the height of the fall plus the grain's rise from lying to standing.
 std::optional<ReadingLimit> limit_of_low_rebound(const Model& model, const Protocol& protocol) {
   const auto& low_m = protocol.as<DropProtocol>().low_height_m;
   if (!low_m) return std::nullopt;
@@ -359,13 +359,13 @@ std::vector<ProtocolKey> keys_of_drop_on_grains(Protocol& protocol) {
           count_key("grains", "20", kMaxGrains, drop.grains), coverage_key(drop.coverage)};
 }
 
-/// From a hollow between glued grains to standing above them, beside the height of the fall.
+/// The height of the fall, plus the rise from a hollow between glued grains to standing above them.
 Range possible_rise(const Model& model, const Protocol& protocol) {
   const double height_m = protocol.as<GrainDropProtocol>().height_m;
   return from_to(0, 1e3 * (height_m + 4 * model.grain.reach_m()));
 }
 
-/// A grain touches several others, again and again, before it is thrown up.
+/// A grain touches several others repeatedly before it rebounds.
 double cost_of_drop_on_grains_s(const Model& model, const Protocol& protocol) {
   constexpr double kSteps = 1e4;
   const int grains = protocol.as<GrainDropProtocol>().grains;
@@ -374,8 +374,8 @@ double cost_of_drop_on_grains_s(const Model& model, const Protocol& protocol) {
 
 }  // namespace
 
-/// Of 6 mm glass beads and of hazelnuts alike, restitution from .2 to .8 moved the rise twentyfold,
-/// rolling friction from .02 to .2 by a third of it, sliding friction by less than it scatters.
+/// For both 6 mm glass beads and hazelnuts, restitution from .2 to .8 changed the rise twentyfold,
+/// rolling friction from .02 to .2 by a third, sliding friction by less than its scatter.
 ExperimentEntry drop_on_grains_entry() {
   return {
       .name = "drop_on_grains",

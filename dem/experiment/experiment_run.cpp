@@ -16,13 +16,13 @@ namespace repose::dem {
 
 namespace {
 
-/// Speeds are taken in rungs, each by this much faster than the one below, so that the step seldom
+/// Ratio between successive speed rungs. Speeds are rounded up to rungs so that the step seldom
 /// changes.
 constexpr double kRung = 1.15;
 /// The lowest rung, 1.15^-16: a tenth of the usual speed.
 constexpr int kLowestRung = -16;
 
-/// Fastest that a surface moves, m/s; no grain turns faster about a point than its reach allows.
+/// Upper bound for the speed of any grain's surface, m/s.
 double fastest_surface_m_s(const Simulation& simulation) {
   double fastest = 0;
   for (int k = 0; k < simulation.grain_count(); ++k) {
@@ -57,23 +57,23 @@ double AdaptiveTimestep::timestep_s(const Simulation& simulation, double ahead_s
   const double speed =
       fastest_surface_m_s(simulation) + ahead_s * simulation.setup().gravity.norm();
   const double rungs = std::log(speed / usual_speed_m_s_) / std::log(kRung);
-  // -inf of grains that all stand still.
+  // -inf if all grains are at rest.
   const int rung = static_cast<int>(std::max<double>(kLowestRung, std::ceil(rungs)));
   const double longest = step_of(rung);
   if (now <= longest && now >= step_of(rung + 1)) return now;
   if (longest < now) return longest;
-  // Grains that press on each other have speed in store.
+  // Grains pressed together store energy that can become speed.
   const auto stable = simulation.stable_timestep_s();
   return stable ? std::clamp(fraction_ * *stable, now, longest) : longest;
 }
 
 namespace {
 
-/// Grains times steps between two looks at the latest: some seconds of work.
+/// Maximum of grains times steps between two looks: some seconds of work.
 constexpr std::int64_t kClumpStepsBetweenLooks = 1'000'000;
 
-/// The first multiple of `every` after `step`: where looks are does not depend on where a run was
-/// taken up again.
+/// The first multiple of `every` after `step`, so that looks do not depend on where a run was
+/// resumed.
 std::int64_t multiple_after(std::int64_t step, std::int64_t every) {
   return (step / every + 1) * every;
 }
@@ -114,11 +114,11 @@ std::int64_t ExperimentRun::steps_of(double duration_s) const {
   return static_cast<std::int64_t>(std::max(1.0, steps));
 }
 
-/// Frames are taken at the first steps at or after the multiples of their interval, however the
-/// steps' length changes on the way there.
+/// Step of the next frame: the first at or after a multiple of the interval, if the time step
+/// stays.
 std::int64_t ExperimentRun::next_frame_step() const {
   if (!observers_.record.frame) return std::numeric_limits<std::int64_t>::max();
-  constexpr double kRounding = 1e-6;  // steps that miss it by so little are there
+  constexpr double kRounding = 1e-6;  // steps within this of the time count as there
   const double timestep_s = simulation_.setup().timestep_s;
   const double steps = observers_.record.frame_interval_s / timestep_s;
   const double now = simulation_.time_s() / timestep_s;

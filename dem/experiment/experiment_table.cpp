@@ -94,7 +94,7 @@ Range readable_in(std::string_view unit) {
 }
 
 bool depends_on(const ExperimentEntry& entry, std::string_view coefficient) {
-  // How restitution goes with the speed matters where restitution does.
+  // The speed dependence of restitution matters wherever restitution does.
   constexpr std::string_view kExponent = "_exponent";
   if (coefficient.ends_with(kExponent)) coefficient.remove_suffix(kExponent.size());
   const auto is_of = [coefficient](WallPart part) {

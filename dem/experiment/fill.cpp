@@ -20,7 +20,7 @@
 namespace repose::dem {
 namespace {
 
-/// Grains across and upwards that a bulk has at least.
+/// Minimum number of grains across and along the height of a bulk.
 constexpr double kFewestInTube = 4;
 
 double volume_m3(const FillProtocol& protocol) {
@@ -62,7 +62,7 @@ void check_taps(const FillProtocol& protocol, base::Faults& errors) {
        .fix = "how far the tube drops at each tap, such as 0.003."});
 }
 
-/// Of grains that fill the tube, heaped over its rim or its collar's.
+/// Checks the pouring rate, for grains that fill the tube.
 void check_rate(const Model& model, const FillProtocol& protocol, base::Faults& errors) {
   if (!protocol.pour_kg_s) return;
   constexpr double kPacked = .65;
@@ -98,7 +98,7 @@ void check(const Model& model, const FillProtocol& protocol) {
   errors.throw_if_any();
 }
 
-/// The same tube for the pouring, which stands on a plate as wide as itself.
+/// The same tube for pouring, on a plate of its own width.
 HeapProtocol tube_of(const FillProtocol& protocol) {
   constexpr double kTubeWall_m = .002;
   return {.tube_diameter_m = protocol.tube_diameter_m,
@@ -109,9 +109,9 @@ HeapProtocol tube_of(const FillProtocol& protocol) {
           .grains = {}};
 }
 
-/// As high as it is filled.
+/// The tube with its collar, if it is tapped.
 HeapProtocol collared(HeapProtocol tube, const FillProtocol& protocol) {
-  // Grains that come to lie a third denser, as hardly any do, still reach the rim.
+  // Enough for packings that become a third denser; hardly any do.
   constexpr double kCollar = 1. / 3;
   if (protocol.taps) tube.tube_height_m *= 1 + kCollar;
   return tube;
@@ -126,7 +126,7 @@ Bulk bulk_below(const Simulation& simulation, double rim_m) {
   return bulk;
 }
 
-/// Taps the tube; returns by how much denser it is below its rim.
+/// Taps the tube; returns the ratio of mass below its rim after and before.
 double tapped(ExperimentRun& run, const FillProtocol& protocol) {
   const double poured = bulk_below(run.simulation(), protocol.tube_height_m).relative_mass;
   tap(run, *protocol.taps, protocol.tap_m);
@@ -136,7 +136,7 @@ double tapped(ExperimentRun& run, const FillProtocol& protocol) {
   return bulk_below(run.simulation(), protocol.tube_height_m).relative_mass / poured;
 }
 
-/// None: as fast as they fall. Of sizes that vary, each is as likely.
+/// std::nullopt: as fast as they fall. If sizes vary, each is equally likely.
 std::optional<double> grains_per_s(const FillProtocol& protocol, const Model& model,
                                    const SimulationSetup& setup) {
   if (!protocol.pour_kg_s) return std::nullopt;
@@ -192,8 +192,8 @@ std::vector<ProtocolKey> keys_of_fill(Protocol& protocol) {
           tap};
 }
 
-/// Balls that were poured sixteen times slower came to lie 6 % denser: of a bench whose rate is not
-/// known, anything from 0 to that is as likely, 3.5 % from 0 in the root mean square.
+/// Balls poured sixteen times more slowly packed 6 % denser: if the bench's rate is unknown,
+/// anything from 0 to that is equally likely, 3.5 % root mean square.
 SystematicFraction systematic_of_fill(const Protocol& protocol) {
   if (protocol.as<FillProtocol>().pour_kg_s) return {};
   return {.name = "pouring_rate",
@@ -210,7 +210,7 @@ SystematicFraction systematic_of_fill(const Protocol& protocol) {
               "what was poured by the time that it took."};
 }
 
-/// The own tube, or one that holds a bulk of large grains, too.
+/// The bench's own tube, or one that also holds a bulk of large grains.
 void adapt_fill(Protocol& protocol, const UsualBench& bench) {
   auto& fill = protocol.as<FillProtocol>();
   if (bench.has_own_tube) {
@@ -255,7 +255,7 @@ ExperimentEntry fill_entry() {
           .coefficients = {kWallRestitution, kWallSliding, kWallRolling, kGrainRestitution,
                            kGrainSliding, kGrainRolling},
           .parts = {WallPart::tube},
-          // Beads of foamed polystyrene have 8 and more, osmium without any gaps has 22,590.
+          // Expanded polystyrene beads have at least 8, solid osmium 22,590.
           .sheet = {.test = "fill",
                     .value = "bulk_density_kg_m3",
                     .mean =
@@ -271,9 +271,9 @@ ExperimentEntry fill_entry() {
           .systematic = systematic_of_fill,
           .usual_scatter = .02,
           .usual_model_error = .02,
-          // What is weighed is denser by the overlaps of its grains, which the weight of those
-          // above makes: of glass beads by 2 % at 6.5 MPa, while ten and a hundred times stiffer
-          // ones do not differ (docs/calibrating.md, "Are the grains stiff enough?").
+          // Overlaps under the weight of the grains above increase the density: for glass beads by
+          // 2 % at 6.5 MPa, while ten and a hundred times stiffer ones do not differ
+          // (docs/calibrating.md, "Are the grains stiff enough?").
           .soft_pa = 1.25e8,
           .usual = FillProtocol{},
           .keys = keys_of_fill,
@@ -288,7 +288,7 @@ ExperimentEntry fill_entry() {
               [](const Model& model, const Protocol& /*protocol*/) {
                 return from_to(0, model.grain_material.density_kg_m3);
               },
-          // Loose fibres fill 5 % of a tube, random packings of anything rounder 50 or more.
+          // Loose fibres fill 5 % of a tube, random packings of rounder grains 50 % or more.
           .least_of_possible = .05,
           .cost_s = cost_of_fill_s};
 }

@@ -18,13 +18,13 @@ namespace repose::dem {
 
 namespace {
 
-/// Share of the run that filling is taken to be.
+/// Assumed fraction of the run for filling.
 constexpr double kFillFraction = .35;
-/// Places tried for each layer: more would find few.
+/// Places tried per layer: more would find few.
 constexpr int kTriesPerLayer = 400;
-/// How far the rain is taken to have fallen, in reaches of a grain.
+/// Assumed height of fall of the rain, in reaches of a grain.
 constexpr double kFall = 4;
-/// How far grains are heaped over the rim before they are levelled, in reaches of a grain.
+/// Height to which grains heap over the rim before levelling, in reaches of a grain.
 constexpr double kHeaped = 4;
 
 double rain_speed_m_s(double reach_m) {
@@ -33,7 +33,7 @@ double rain_speed_m_s(double reach_m) {
 
 class Rain {
  public:
-  /// `draws`: of the rain that this one goes on from.
+  /// `draws`: random numbers already used by the rain to resume.
   Rain(const RainPlan& plan, double reach_m, std::uint64_t seed, std::uint64_t draws)
       : plan_(plan), reach_m_(reach_m), random_(seed, draws) {}
 
@@ -46,17 +46,17 @@ class Rain {
   }
   double highest_point_m(const ExperimentRun& run) const;
   void rain_up_to(ExperimentRun& run, double height_m);
-  /// At most so many grains; returns how many it has.
+  /// Adds at most `most` grains; returns the number added.
   int add_layer(ExperimentRun& run, double height_m, int most);
 
-  /// Of grains that are added at a height: as if they came from the spout, or in a steady rain.
+  /// Initial speed of grains added at a height: as if from the spout, or in a steady rain.
   double speed_m_s(double height_m) const {
     if (!plan_.spout_m) return rain_speed_m_s(reach_m_);
     const double fall_m = std::max(reach_m_, *plan_.spout_m - height_m);
     return std::sqrt(2 * kStandardGravity_m_s2 * fall_m);
   }
 
-  /// Each is as likely as the others.
+  /// All kinds are equally likely.
   int kind_of_next(const SimulationSetup& setup) {
     const auto kinds = static_cast<double>(setup.kinds.size());
     return kinds == 1 ? 0 : static_cast<int>(kinds * random_.uniform());
@@ -95,9 +95,9 @@ int Rain::add_layer(ExperimentRun& run, double height_m, int most) {
   return static_cast<int>(taken.size());
 }
 
-/// A layer at a time goes in just above the last one, which by then has fallen by its own height
-/// or lies on the grains below. Of grains that come at a rate, a layer has those that are due; what
-/// finds no place there does not come later.
+/// Layers go in one at a time just above the last one, which by then has fallen by its own height
+/// or lies on the grains below. With a rate, a layer holds the grains that are due; those that find
+/// no place are dropped, except one at most.
 void Rain::rain_up_to(ExperimentRun& run, double height_m) {
   double due = 1;
   for (double highest = highest_point_m(run); highest < height_m && left(run.simulation()) > 0;
@@ -167,7 +167,7 @@ bool settle(ExperimentRun& run, double fraction) {
 }
 
 void tap(ExperimentRun& run, int taps, double height_m) {
-  constexpr double kFraction = .35;  // of the run, as the filling before it
+  constexpr double kFraction = .35;  // of the run, for the filling before
   const double speed_m_s = std::sqrt(2 * kStandardGravity_m_s2 * height_m);
   for (int k = 0; k < taps; ++k) {
     Checkpoint now = run.simulation().checkpoint();
@@ -182,7 +182,7 @@ void tap(ExperimentRun& run, int taps, double height_m) {
 
 namespace {
 
-/// How much taller the tube is made for the filling, in reaches of a grain.
+/// Extra height of the tube during filling, in reaches of a grain.
 constexpr double kTaller = 40;
 
 Wall plate_of(const HeapProtocol& protocol) {
@@ -199,7 +199,7 @@ Wall tube_of(const Model& model, const HeapProtocol& protocol, double height_m) 
                         .height = height_m});
 }
 
-/// Places over the tube.
+/// Random places over the tube.
 RainPlan rain_of(const HeapProtocol& protocol, double reach_m, std::optional<double> spout_m,
                  std::optional<double> grains_per_s) {
   const double room = .5 * protocol.tube_diameter_m - reach_m;
@@ -215,7 +215,8 @@ RainPlan rain_of(const HeapProtocol& protocol, double reach_m, std::optional<dou
           .grains_per_s = grains_per_s};
 }
 
-/// The grains up to the rim, and their contacts but those with the tube above it.
+/// The grains up to the rim, with their contacts except those with the removed upper part of the
+/// tube.
 Checkpoint levelled(const HeapProtocol& protocol, const Simulation& filled) {
   Checkpoint now = filled.checkpoint();
   now.step = 0;
@@ -261,7 +262,7 @@ ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
   SimulationSetup setup =
       bulk_setup(model, {plate_of(protocol), tube_of(model, protocol, protocol.tube_height_m)},
                  fastest_rain_m_s(reach, spout_m));
-  // Grains that fall off the plate are gone once they are well below it.
+  // Grains that fall off the plate are removed once they are well below it.
   setup.floor_m = -protocol.plate_thickness_m - 5 * reach;
   return {Simulation(std::move(setup), levelled(protocol, filling.simulation())),
           filling.observers(),
@@ -286,10 +287,10 @@ ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapPro
 
 namespace {
 
-/// Plumb lines from one side of the tube to the other.
+/// Number of vertical lines across the tube.
 constexpr int kLines = 200;
 
-/// The highest point on each line of a square around the tube.
+/// The highest point on each vertical line of a square grid around the tube.
 class Surface {
  public:
   explicit Surface(double diameter_m)

@@ -16,80 +16,80 @@ namespace repose::dem {
 
 /// How a vessel is filled, whatever its shape.
 struct RainPlan {
-  /// A random place for a grain's centre over the vessel; its height counts for nothing.
+  /// A random place for a grain's centre over the vessel; its height is ignored.
   std::function<Vector(Random&)> place;
-  double floor_m = 0;                       ///< that the grains fall on
-  double rim_m = 0;                         ///< up to where they are to lie
-  std::optional<int> grains = {};           ///< as many, if as many fit; else as many as fit
-  std::optional<double> spout_m = {};       ///< they fall from this height; else in a steady rain
-  std::optional<double> grains_per_s = {};  ///< no more than that; else as fast as they fall
+  double floor_m = 0;                       ///< where the grains land
+  double rim_m = 0;                         ///< target level of the grains
+  std::optional<int> grains = {};           ///< this many, if they fit; else as many as fit
+  std::optional<double> spout_m = {};       ///< height they fall from; else a steady rain
+  std::optional<double> grains_per_s = {};  ///< maximum rate; else as fast as they fall
 };
 
-/// Of the impacts that the time step of a rain is chosen for.
+/// Impact speed that the time step of a rain is chosen for.
 double fastest_rain_m_s(double reach_m, std::optional<double> spout_m = {});
 
-/// Fills a vessel that is tall enough for all that falls, and waits until the grains rest.
+/// Fills a vessel that is tall enough for all grains, and waits until they rest.
 ///
-/// They rain in layers, each a little above what is there, in random poses and at random places no
-/// nearer to each other than they can reach, until they are heaped over the rim; of `grains_per_s`
-/// a layer has those that are due. An interrupted run without that goes on where it stood.
+/// They rain in layers, each just above the grains already there, in random poses and at random
+/// places where they cannot touch each other, until they heap over the rim; with `grains_per_s`, a
+/// layer holds those due. An interrupted run resumes where it stopped, unless it has
+/// `grains_per_s`.
 void rain(ExperimentRun& run, const RainPlan& plan, std::uint64_t seed);
 
 /// Grains whose centres lie above the rim.
 std::vector<int> above_rim(const Simulation& simulation, double rim_m);
 
-/// For heaps that creep: with the lift, about the 8 s that a bench heap is given before its picture
-/// is taken. In the tube it is enough too: the tube holds what creeps.
+/// Limit for creeping heaps: with the lift, about the 8 s after which a real heap is photographed.
+/// It suffices in the tube, too, which confines the grains.
 inline constexpr double kLongestSettling_s = 5;
 
-/// Grains of a heap that are to come to rest, from now on, in a stage of HeapStage.
+/// Starts waiting for rest, in a stage of HeapStage.
 void begin_settling(ExperimentRun& run, int stage);
 
-/// Waits for it, telling `share`; false when they still moved (creep) after 5 s.
+/// Waits for rest, reporting `fraction`; false if the grains still moved (creep) after 5 s.
 bool settle(ExperimentRun& run, double fraction);
 
-/// Drops all walls and grains together by `height_m` onto a base that does not give, so many times,
-/// and lets the grains come to rest after each.
+/// Drops all walls and grains together by `height_m` onto a rigid base, `taps` times, and lets the
+/// grains come to rest after each.
 ///
-/// While they fall together nothing presses; then the walls stand still, and the grains meet them
-/// with v = sqrt(2 g h), which is what is simulated. Left out: the vessel's own rebound, and the
-/// springs of the contacts that unload during the fall (m g times an overlap, far below m g h).
-/// Proved by Tapping.* in tests/dem.
+/// During the fall there are no contact forces; then the walls stop, and the grains hit them with
+/// v = sqrt(2 g h), which is simulated. Neglected: the vessel's own rebound, and the unloading of
+/// the contact springs during the fall (m g times an overlap, far below m g h). Proved by Tapping.*
+/// in tests/dem.
 void tap(ExperimentRun& run, int taps, double height_m);
 
 /// The walls of the heap experiment, in this order.
 inline constexpr int kHeapPlate = 0;
 inline constexpr int kHeapTube = 1;
 
-/// Of a tube that it rains or is poured into, until the heap lies.
+/// Time stepping for a tube that is filled by rain or from a spout, until the heap is at rest.
 AdaptiveTimestep pace_of_rain(const Model& model, std::optional<double> spout_m = {});
 
-/// The tube on its plate, made taller to be heaped over, and empty.
+/// The empty tube on its plate, made taller so that it can be overfilled.
 ///
-/// Grains rain into it, or fall from a spout: its height over the plate, m.
+/// `spout_m`: height of the spout above the plate, m; std::nullopt: grains rain in.
 ExperimentRun empty_tube(const Model& model, const HeapProtocol& protocol,
                          const Observers& observers, std::optional<double> spout_m = {});
 
-/// Pours grains into it until they are heaped over its rim, `protocol.tube_height_m`, and rest.
-/// `filling` is empty, or was interrupted while it was filled.
+/// Pours grains in until they heap over the rim, `protocol.tube_height_m`, and rest. `filling` is
+/// an empty tube, or one interrupted during filling.
 void pour(ExperimentRun& filling, const HeapProtocol& protocol, std::uint64_t seed,
           std::optional<double> spout_m = {}, std::optional<double> grains_per_s = {});
 
-/// The tube with what lies below its rim, its time set back to 0: grains whose centres lie higher
-/// are off.
+/// The tube after removing grains whose centres lie above its rim; time is reset to 0.
 ExperimentRun struck_level(const ExperimentRun& filling, const Model& model,
                            const HeapProtocol& protocol, std::optional<double> spout_m = {});
 
-/// The tube, full of grains at rest, its time set back to 0: poured and struck level.
+/// The tube full of grains at rest, poured and struck level; time is reset to 0.
 ///
-/// Throws base::InputError when `protocol.grains` are more than fit.
+/// Throws base::InputError if `protocol.grains` do not fit, unless allow_partial_fill is set.
 ExperimentRun fill_tube(ExperimentRun filling, const Model& model, const HeapProtocol& protocol,
                         std::uint64_t seed);
 
 /// Mean height of the upper surface of spheres in an upright tube about the z axis, m: of the
-/// highest sphere on each of many plumb lines, spread evenly over the tube, or of the floor z = 0
-/// where a line meets none. What a ruler gives that is put down on the grains at many places.
-/// Proved by FillingHeight.* in tests/dem/experiment_fill_test.cpp.
+/// highest sphere on each of many vertical lines, spread evenly over the tube, or of the floor
+/// z = 0 if a line meets no sphere. Corresponds to ruler readings at many places. Proved by
+/// FillingHeight.* in tests/dem/experiment_fill_test.cpp.
 double filling_height_m(std::span<const ClumpSphere> spheres, double tube_diameter_m);
 
 }  // namespace repose::dem

@@ -17,17 +17,17 @@ namespace {
 constexpr int kGrains = 100;
 constexpr int kMaxTries = 20;
 constexpr int kSpreadings = 600;
-/// While they are spread the grains are as large as if they hid so much: that leaves no holes.
+/// While spreading, the grains are enlarged as if they had this coverage, which leaves no holes.
 constexpr double kSpreadCoverage = .88;
-/// How far glued grains may press into each other, as a fraction of their thickness.
+/// Maximum overlap of glued grains, as a fraction of their thickness.
 constexpr double kMaxOverlap = .1;
-/// Places where a hole is looked for, in a grain's thickness.
+/// Places per grain thickness at which holes are looked for.
 constexpr int kPlacesPerGrain = 8;
 
 /// A grain on the board.
 struct Glued {
   Vector place = Vector::Zero();
-  std::vector<FixedSphere> spheres;  ///< about its place
+  std::vector<FixedSphere> spheres;  ///< relative to its place
 };
 
 double width_along(const ClumpShape& grain, const Quaternion& pose, const Vector& direction) {
@@ -55,7 +55,7 @@ class Spreading {
     for (int k = 0; k < kSpreadings; ++k) spread();
   }
 
-  /// Deepest overlap of two grains as they are.
+  /// Deepest overlap of any two grains at their true size.
   double deepest_m() const {
     double deepest = 0;
     for (std::size_t a = 0; a < glued_.size(); ++a) {
@@ -95,7 +95,7 @@ class Spreading {
     return way;
   }
 
-  /// Of two grains that are `growth` times as large along the board.
+  /// Overlap of two grains enlarged `growth` times along the board.
   double overlap(const Glued& a, const Glued& b, const Vector& way, double growth) const {
     if (way.norm() > 2 * growth * reach_) return 0;
     const Vector closer = {way.x() / growth, way.y() / growth, way.z()};
@@ -109,7 +109,7 @@ class Spreading {
     return deepest;
   }
 
-  /// Moves grains that overlap apart, each pair half of the way.
+  /// Moves overlapping grains apart, each by half of the overlap.
   void spread() {
     std::vector<Vector> shifts(glued_.size(), Vector::Zero());
     for (std::size_t a = 0; a < glued_.size(); ++a) {
@@ -123,7 +123,7 @@ class Spreading {
         shifts[b] += shift;
       }
     }
-    constexpr double kCaution = .7;  // several push each
+    constexpr double kCaution = .7;  // as several push each grain
     for (std::size_t k = 0; k < glued_.size(); ++k) glued_[k].place += kCaution * shifts[k];
   }
 

@@ -107,9 +107,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongestLift_s = 600;
-/// Sides that a heap's envelopes are seen from.
+/// Number of views for a heap's envelopes.
 constexpr int kViews = 18;
-/// Shares of the run when the lift begins and when the tube is away.
+/// Fractions of the run at which the lift begins and the tube is removed.
 constexpr double kLiftFrom = .35;
 constexpr double kLiftTo = .9;
 
@@ -218,7 +218,7 @@ void begin_lift(ExperimentRun& run, const HeapProtocol& protocol) {
   progress.start_m = highest_point_m(run);
 }
 
-/// Lifts the tube until no grain reaches up to its lower rim, and takes it away.
+/// Lifts the tube until no grain reaches its lower rim, and removes it.
 void lift(ExperimentRun& run) {
   Simulation& simulation = run.simulation();
   const double look_s = RestTest(simulation.setup()).interval_s();
@@ -227,7 +227,7 @@ void lift(ExperimentRun& run) {
     const double highest = highest_point_m(run);
     const double rim = simulation.wall(kHeapTube).pose.position.z();
     if (rim > highest) break;
-    // Grains that are not carried along stay below where the highest was.
+    // Grains that are not carried along stay below the initial highest point.
     if (rim > start + reach_m(simulation.setup())) {
       throw NoMeasurement(
           fmt::format("heap: grains hang in the tube, its lower rim now {:.3g} m up. "
@@ -247,7 +247,7 @@ ExperimentRun filled(ExperimentRun filling, const Model& model, const HeapProtoc
   return run;
 }
 
-/// What lies on the plate in the end.
+/// Result: the grains left on the plate.
 Repeat heap_of(ExperimentRun run, const Model& model, bool is_at_rest, std::uint64_t seed) {
   const int grains = run.progress().grains;
   const int on_plate = count_present(run.simulation());
@@ -272,7 +272,7 @@ Repeat heap_of(ExperimentRun run, const Model& model, bool is_at_rest, std::uint
   return repeat;
 }
 
-/// From the lift on, or from where it was interrupted after that.
+/// Continues from the lift, or from where it was interrupted later.
 Repeat finish_heap(ExperimentRun run, const Model& model, std::uint64_t seed) {
   if (run.progress().stage == HeapStage::lift) {
     lift(run);
@@ -337,7 +337,7 @@ std::vector<ProtocolKey> keys_of_heap(Protocol& protocol) {
 }
 
 void adapt_heap(Protocol& protocol, const UsualBench& bench) {
-  constexpr double kPlateWidths = 6;  // how far a low heap reaches, and more
+  constexpr double kPlateWidths = 6;  // more than the extent of a low heap
   auto& heap = protocol.as<HeapProtocol>();
   heap.tube_diameter_m = bench.tube_diameter_mm * kMPerMm;
   heap.tube_height_m = bench.tube_height_mm * kMPerMm;
@@ -359,7 +359,7 @@ double grains_in(const HeapProtocol& heap, const ClumpShape& grain) {
 }
 
 double cost_of_heap_s(const Model& model, const Protocol& protocol) {
-  // Once the tube is a diameter up, what is left in it falls out.
+  // Once the tube is lifted by its diameter, the remaining grains fall out.
   constexpr double kFillAndSettle_s = 1.5, kSpeed_m_s = .5;
   const auto& heap = protocol.as<HeapProtocol>();
   const double simulated_s = heap.tube_diameter_m / heap.lift_speed_m_s + kFillAndSettle_s;
@@ -367,9 +367,9 @@ double cost_of_heap_s(const Model& model, const Protocol& protocol) {
          bulk_timestep_s(model, kSpeed_m_s);
 }
 
-/// Fewer make no heap at little friction. Those of kFewest are off by up to 8 degrees, which goes
-/// with friction, and scatter two to six times as much: docs/simulating.md, "Heaps of larger
-/// grains".
+/// Fewer grains form no heap at low friction. Heaps of kFewest are off by up to 8 degrees,
+/// depending on friction, and scatter two to six times as much: docs/simulating.md, "Heaps of
+/// larger grains".
 std::optional<double> coarse_size_of_heap(const ClumpShape& grain, const Protocol& protocol) {
   constexpr double kFewest = 300;
   constexpr double kWorthIt = 1.5;  // a fifth of the cost

@@ -9,14 +9,14 @@
 
 namespace repose::dem {
 
-/// A tube filled with grains and lifted off a plate.
+/// A tube is filled with grains and lifted off a plate.
 ///
-/// The result is `Repeat::envelopes`, the heap's outline from all around: a line through them gives
-/// its angle, and there is no value yet. Readings: "grains" (when the lift began),
+/// The result is `Repeat::envelopes`, the heap's outlines from all sides: lines fitted to them give
+/// its angle later; there is no value yet. Readings: "grains" (when the lift began),
 /// "grains_on_plate", "grains_off_plate", "height_mm", "no_heap" (1: the grains spread in a layer
 /// too low to be a heap, below 2.5 grain diameters), "at_rest" (0: still creeping 5 s after the
-/// tube was away, as constant torques let heaps do), "time_s" (of lift and settling). Throws
-/// NoMeasurement when the grains stay in the tube or leave the plate.
+/// tube was removed, as heaps do with constant-torque rolling friction), "time_s" (of lift and
+/// settling). Throws NoMeasurement if the grains stay in the tube or leave the plate.
 struct HeapProtocol {
   double tube_diameter_m = .1;  ///< inner
   double tube_height_m = .4;
@@ -24,21 +24,21 @@ struct HeapProtocol {
   double lift_speed_m_s = .03;
   double plate_m = .4;  ///< side of the square plate
   double plate_thickness_m = .002;
-  std::optional<int> grains;  ///< or as many as fill the tube, levelled at its rim
-  /// Of a level camera that takes pictures of the heap, from the tube's axis; none: from so far
-  /// away that its rays are parallel. What is simulated takes no notice of it.
+  std::optional<int> grains;  ///< std::nullopt: as many as fill the tube, levelled at its rim
+  /// Distance of a level camera that photographs the heap from the tube's axis; std::nullopt: so
+  /// far away that its rays are parallel. Does not affect the simulation.
   std::optional<double> camera_distance_m = {};
-  double camera_height_m = .04;  ///< of its lens, above the plate
-  /// How many fit depends on their friction: where `grains` do not, take those that do. Without it
-  /// they are refused.
+  double camera_height_m = .04;  ///< of the camera's lens, above the plate
+  /// If `grains` do not fit (which depends on friction), take those that do; otherwise that is an
+  /// error.
   bool allow_partial_fill = false;
 };
 
 Repeat run_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
                 const ProgressReport& report = {}, const RunRecord& record = {});
 
-/// Goes on with a heap that was interrupted, to the same bytes as one that was not. `from` must be
-/// of the same bench, protocol and seed, which is not checked.
+/// Resumes an interrupted heap, with a result identical to an uninterrupted run. `from` must be of
+/// the same model, protocol and seed, which is not checked.
 Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
                    const Restart& from, const ProgressReport& report = {},
                    const RunRecord& record = {});
@@ -46,16 +46,16 @@ Repeat resume_heap(const Model& model, const HeapProtocol& protocol, std::uint64
 /// Grains that another program's tube left on the plate.
 struct StandingHeap {
   std::vector<Grain> grains;  ///< of the model's grain
-  int lifted = 0;             ///< how many there were when the lift began
+  int lifted = 0;             ///< their number when the lift began
   bool is_at_rest = true;
 };
 
-/// What such a heap gives, as one of run_heap(). Times and steps are none of ours, and 0.
+/// The result for such a heap, as of run_heap(). Times and steps are not known, and 0.
 /// @throws base::InputError, NoMeasurement  as run_heap().
 Repeat heap_from(const Model& model, const HeapProtocol& protocol, std::uint64_t seed,
                  const StandingHeap& heap);
 
-/// What goes on in a heap experiment, in this order: the values of RunProgress::stage.
+/// Stages of a heap experiment, in this order: the values of RunProgress::stage.
 struct HeapStage {
   enum : int { rain, settle_in_tube, lift, settle };
 };
@@ -63,12 +63,11 @@ struct HeapStage {
 /// The envelopes of a heap of spheres on the ground z = 0 from `views` sides, equally spaced over
 /// half a turn; the first looks along +y.
 ///
-/// Columns are a twentieth of a mean sphere's radius wide. The heap is what is connected with the
+/// Columns are a twentieth of the mean sphere radius wide. The heap is what is connected to the
 /// highest column: grains beyond a gap are not part of it. Proved by HeapEnvelope.* in
 /// tests/dem/experiment_envelope_test.cpp.
 ///
-/// Throws base::InputError for less than one view and where no sphere reaches above the
-/// ground.
+/// Throws base::InputError for less than one view or if no sphere reaches above the ground.
 std::vector<Envelope> heap_envelopes(const std::vector<ClumpSphere>& spheres, int views);
 
 /// Heaps lower than this many grain diameters are layers, which have no angle of repose.

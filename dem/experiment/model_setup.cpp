@@ -16,7 +16,7 @@
 namespace repose::dem {
 
 Quaternion Random::orientation() {
-  // In this order: the order of evaluation of arguments is not fixed.
+  // Separate statements, as argument evaluation order is unspecified.
   const double fraction = uniform();
   const double first = 2 * std::numbers::pi * uniform();
   const double second = 2 * std::numbers::pi * uniform();
@@ -72,7 +72,7 @@ Quaternion lying_pose(const ClumpShape& shape) {
                    [&](int a, int b) { return shape.gyration_m2[a] < shape.gyration_m2[b]; });
   const Vector along_y = Vector::Unit(axes[0]);
   const Vector along_z = Vector::Unit(axes[2]);
-  Eigen::Matrix3d own_axes;  // rows: what becomes x, y, z
+  Eigen::Matrix3d own_axes;  // rows: the axes that become x, y, z
   own_axes << along_y.cross(along_z).transpose(), along_y.transpose(), along_z.transpose();
   return Quaternion(own_axes).normalized();
 }
@@ -112,7 +112,7 @@ ContactTable contact_table(const Model& model) {
   std::vector<PairCoefficients> pairs = with_grain;
   for (std::size_t a = 1; a < with_grain.size(); ++a) {
     pairs.push_back(with_grain[a]);
-    // What walls do to each other is never asked for.
+    // Coefficients between walls are never used.
     pairs.insert(pairs.end(), with_grain.size() - 1, model.grain_wall);
   }
   return {std::move(materials), std::move(pairs), model.rolling, model.damping};

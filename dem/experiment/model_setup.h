@@ -11,32 +11,32 @@
 
 namespace repose::dem {
 
-/// Random numbers that are the same everywhere, and random rotations.
+/// Random numbers that are the same on every platform, and random rotations.
 class Random : public base::Random {
  public:
   using base::Random::Random;
 
   /// Uniform over all rotations.
   ///
-  /// Source: Shoemake (1992), Uniform random rotations, Graphics Gems III, p. 124: a point spread
-  /// evenly over the unit sphere in four dimensions. Proved by Random.* in
+  /// Source: Shoemake (1992), Uniform random rotations, Graphics Gems III, p. 124: a uniformly
+  /// distributed point on the unit sphere in four dimensions. Proved by Random.* in
   /// tests/dem/experiment_random_test.cpp.
   Quaternion orientation();
 };
 
-/// As many grains as one run may have: a hundred times what a bench needs, and what fits into the
-/// memory of one machine.
+/// Maximum number of grains in a run: a hundred times what an experiment needs, and still fits into
+/// memory.
 inline constexpr int kMaxGrains = 100'000;
 
-/// Grains of one run that must never meet.
+/// Spacing of grains of one run that must never meet.
 
-/// From one to the next of grains that fall from a height and rebound.
+/// Between grains that fall from a height and rebound.
 inline double drop_spacing_m(double height_m, double reach_m) { return 8 * (height_m + reach_m); }
 
-/// From one to the next of bodies that slide down a plate, side by side.
+/// Between bodies that slide down a plate, side by side.
 inline double lane_m(double body_reach_m) { return 20 * body_reach_m; }
 
-/// How far a grain's spheres reach from its centre of mass in a direction (unit, world axes), m.
+/// Extent of a grain's spheres from its centre of mass in a direction (unit, world axes), m.
 double reach_towards(const ClumpShape& shape, const Quaternion& orientation,
                      const Vector& direction);
 
@@ -48,7 +48,7 @@ double highest_m(const ClumpShape& shape, const Grain& grain);
 const ClumpShape& shape_of(const Simulation& simulation, const Grain& grain);
 double highest_m(const Simulation& simulation, int grain);
 
-/// Some grains of a simulation: their number, and their mass by that of one of the mean size.
+/// Some grains of a simulation: their number, and their mass relative to a grain of mean size.
 struct Bulk {
   int grains = 0;
   double relative_mass = 0;
@@ -56,46 +56,47 @@ struct Bulk {
   void add(const Simulation& simulation, int grain);
 };
 
-/// Farthest that a sphere of any of the kinds reaches from the grain's centre of mass, m.
+/// Largest extent of any of the kinds from the centre of mass, m.
 double reach_m(const SimulationSetup& setup);
 
-/// Turns a grain so that its long axis lies along y and its shortest upright.
+/// Rotation that lays a grain's long axis along y and its shortest axis vertical.
 ///
-/// The long axis is the one with the least moment of inertia, the shortest that with the greatest.
+/// The long axis has the smallest moment of inertia, the shortest the largest.
 Quaternion lying_pose(const ClumpShape& shape);
 
 /// Diameter of the sphere with the grain's volume, m.
 double diameter_m(const ClumpShape& shape);
 
-/// The spheres of all grains present, where they are.
+/// The spheres of all grains present, at their current positions.
 std::vector<ClumpSphere> placed_spheres(const Simulation& simulation);
 
 /// The materials of every experiment's contact table; those of `Model::parts` follow.
 inline constexpr int kGrainMaterial = 0;
 inline constexpr int kWallMaterial = 1;
 
-/// Notes what is wrong with the bench itself.
+/// Adds all errors of the model itself.
 void find_errors(const Model& model, base::Faults& errors);
 
 /// A wall of the plate's material, at rest.
 Wall study_wall(WallShape shape, const Pose& pose = {});
 
-/// A part's number among the materials: the plate's where it has none of its own.
+/// Material index of a part: the plate's if it has none of its own.
 int material_of(const Model& model, WallPart part);
-/// A wall that is such a part, at rest.
+/// A wall of that part's material, at rest.
 Wall part_wall(const Model& model, WallPart part, WallShape shape, const Pose& pose = {});
 
-/// Grains of one shape among walls, with the bench's materials and a time step for impacts at up to
-/// `speed_m_s`: the bench's own, or its share of the longest accurate one, `fraction` of the stable
-/// one (time_step.h). Throws base::InputError for a time step asked for that is not safe.
+/// Grains of one shape among walls, with the model's materials and a time step for impacts at up to
+/// `speed_m_s`: the model's own, or its timestep_fraction of the longest accurate one, which is
+/// `fraction` of the stable one (time_step.h). Throws base::InputError if the model's own time step
+/// is not safe.
 SimulationSetup model_setup(const Model& model, const ClumpShape& shape, std::vector<Wall> walls,
                             double speed_m_s, double fraction = kImpactFraction);
 
-/// Likewise of bulks: grains of all the model's sizes, the mean the first kind, and the usual
-/// fraction of bulks (kBulkFraction).
+/// Likewise for bulks: grains of all the model's sizes, the mean size as first kind, with
+/// kBulkFraction.
 SimulationSetup bulk_setup(const Model& model, std::vector<Wall> walls, double speed_m_s);
 
-/// Farthest that a sphere of the largest of these grains reaches from its centre of mass, m.
+/// Largest extent of the largest of the model's grains from its centre of mass, m.
 double largest_reach_m(const Model& model);
 
 }  // namespace repose::dem

@@ -17,7 +17,7 @@ namespace repose::dem {
 
 namespace {
 
-/// How far apart along x the centres of two turned grains are that just touch.
+/// Distance along x between the centres of two rotated grains that just touch.
 double touching_distance_m(const ClumpShape& shape, const Quaternion& a, const Quaternion& b) {
   double distance = 0;
   for (const ClumpSphere& one : shape.spheres) {
@@ -53,7 +53,7 @@ double swing_speed_m_s(const PendulumProtocol& protocol) {
 namespace {
 
 constexpr double kLongestString_m = 100;
-/// From pair to pair, in reaches of a grain.
+/// Spacing of pairs, in reaches of a grain.
 constexpr double kSpacing = 20;
 
 void check(const Model& model, const PendulumProtocol& protocol) {
@@ -78,10 +78,10 @@ void check(const Model& model, const PendulumProtocol& protocol) {
   errors.throw_if_any();
 }
 
-/// Pairs whose strings hang upright at this moment: one grain at rest, one about to touch it.
+/// Adds pairs whose strings are vertical at this moment: one grain at rest, one about to touch it.
 ///
-/// An impact takes a fraction of a millisecond, in which the strings only carry the weight: both
-/// are left out, gravity and strings.
+/// An impact takes a fraction of a millisecond, during which the strings only carry the weight:
+/// gravity and strings are both omitted.
 void hang_pairs(Simulation& simulation, const PendulumProtocol& protocol, double speed_m_s,
                 std::uint64_t seed) {
   Random random(seed);
@@ -97,7 +97,7 @@ void hang_pairs(Simulation& simulation, const PendulumProtocol& protocol, double
   }
 }
 
-/// Until all pairs have met and parted.
+/// Runs until all pairs have collided and separated.
 void collide(ExperimentRun& run, double speed_m_s) {
   const double reach_s = run.shape().reach_m() / speed_m_s;
   const std::int64_t steps = run.steps_of(kPendulumLook * reach_s);
@@ -124,7 +124,7 @@ Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::u
   std::vector<double> swings_deg;
   double rise_m = 0, mean = 0, squares = 0;
   for (int k = 0; k < protocol.pairs; ++k) {
-    // The struck grain swings in the plane of the strings; what it has aside is lost to it.
+    // The struck grain swings in the plane of the strings; its lateral velocity does not count.
     const double after = std::max(0.0, run.simulation().grain(2 * k + 1).velocity.x());
     const double rise = after * after / (2 * kStandardGravity_m_s2);
     rise_m += rise / protocol.pairs;

@@ -10,13 +10,13 @@ namespace repose::dem {
 
 class Random;
 
-/// Two equal grains on strings, side by side: one is drawn aside, let go, and strikes the other.
+/// Two equal grains on strings, side by side: one is drawn aside, released, and strikes the other.
 ///
-/// The strings are as long as from the hinge to the grain's middle. Value: the angle to which the
-/// struck grain swings, degrees, mean of the pairs, all of them grains in random poses that meet
-/// with their middles at the same height. Between equal balls of restitution e its height is
-/// ((1 + e) / 2)^2 of the other's. Readings: "rise_mm" (that height), "height_ratio" and "sd_deg"
-/// (scatter of the value between pairs).
+/// String length is measured from the hinge to the grain's centre. Value: the angle to which the
+/// struck grain swings, degrees, mean over the pairs, each of grains in random poses that meet with
+/// their centres at the same height. For equal balls of restitution e, the struck ball rises to ((1
+/// + e) / 2)^2 of the other's release height. Readings: "rise_mm" (that height), "height_ratio" and
+/// "sd_deg" (scatter of the value between pairs).
 struct PendulumProtocol {
   double string_m = .3;
   double release_deg = 30;
@@ -26,7 +26,7 @@ struct PendulumProtocol {
 Repeat run_pendulum(const Model& model, const PendulumProtocol& protocol, std::uint64_t seed,
                     const ProgressReport& report = {}, const RunRecord& record = {});
 
-/// Two grains whose strings hang upright: one swings along +x, and is about to touch the other.
+/// Two grains whose strings hang vertically: one swings along +x and is about to touch the other.
 struct HangingPair {
   Quaternion swinging = Quaternion::Identity();
   Quaternion hanging = Quaternion::Identity();
@@ -34,15 +34,15 @@ struct HangingPair {
   double apart_m = 0;
 };
 
-/// In random poses; the next call with the same numbers is the next pair.
+/// In random poses; the next call with the same generator gives the next pair.
 HangingPair hanging_pair(const ClumpShape& shape, Random& random);
 
-/// How far the swinging grain has fallen since it was let go, m, and its speed, m/s.
+/// How far the swinging grain has fallen since its release, m, and its speed, m/s.
 double release_height_m(const PendulumProtocol& protocol);
 double swing_speed_m_s(const PendulumProtocol& protocol);
 
-/// How the grains part, in ways of the swinging grain as fractions of its reach: as far it goes
-/// until both touch, as far between two looks whether they have parted, and as far at most.
+/// Distances travelled by the swinging grain, as fractions of its reach: until both touch, between
+/// two checks whether they have separated, and at most.
 inline constexpr double kPendulumGap = .001;
 inline constexpr double kPendulumLook = .05;
 inline constexpr double kPendulumLongest = 20;

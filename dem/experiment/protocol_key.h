@@ -10,14 +10,14 @@
 
 namespace repose::dem {
 
-/// Which numbers are allowed.
+/// A range of allowed numbers.
 struct Range {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
   bool excludes_from = false;
   bool excludes_to = false;
 
-  bool contains(double value) const;  ///< never NaN or infinite
+  bool contains(double value) const;  ///< false for NaN and infinity
   std::string rule() const;           ///< "a number above 0 and at most 100"
 };
 
@@ -32,17 +32,17 @@ constexpr Range from_to_below(double from, double to) {
   return {.from = from, .to = to, .excludes_to = true};
 }
 
-/// A number of a protocol: its key in a study file, and where the protocol has it.
+/// A number of a protocol: its key in a study file, and where the protocol stores it.
 struct ProtocolKey {
-  std::string name;     ///< with its unit: "height_mm"
+  std::string name;     ///< including the unit: "height_mm"
   std::string example;  ///< a usual value: "500"
   Range range;
-  double unit = 1;  ///< of the key, in that of the protocol: .001 for mm in m
+  double unit = 1;  ///< of the key, in the protocol's unit: .001 for mm in m
   std::variant<double*, int*, std::optional<double>*, std::optional<int>*> value;
-  std::string_view absence = "";  ///< what it means to leave it out: "as many as fit"
-  /// The key without which it says nothing; its own where it says nothing by being left out.
+  std::string_view absence = "";  ///< meaning if omitted: "as many as fit"
+  /// The key without which it has no effect; its own name if omitting it means no effect.
   std::string needs = {};
-  bool is_of_pictures = false;  ///< says how they are taken, and nothing of what is simulated
+  bool is_of_pictures = false;  ///< concerns how pictures are taken, not the simulation
 };
 
 ProtocolKey length_key(std::string name_mm, std::string example_mm, double& value_m);
@@ -54,10 +54,10 @@ ProtocolKey count_key(std::string name, std::string example, int max, int& value
 ProtocolKey count_key(std::string name, std::string example, int max, std::optional<int>& value,
                       std::string_view absence);
 
-/// The value in the key's unit; none for a number that was left out.
+/// The value in the key's unit; std::nullopt if omitted.
 std::optional<double> value_of(const ProtocolKey& key);
 
-/// Those of them that say something: not those whose needed key has no value.
+/// The keys that have an effect, without those whose `needs` key has no value.
 std::vector<ProtocolKey> with_effect(const std::vector<ProtocolKey>& keys);
 
 }  // namespace repose::dem

@@ -13,7 +13,7 @@ constexpr double kEnergyFraction = 1e-6;
 constexpr double kMotionFraction = 1e-3;
 constexpr double kWindowFalls = 2;
 
-/// Kinetic energy by mass, of translation and of spin.
+/// Kinetic energy per mass, of translation and spin.
 struct Energy {
   double way_m2_s2 = 0;
   double spin_m2_s2 = 0;
@@ -24,8 +24,8 @@ Energy energy_of(const Grain& grain, const Vector& gyration_m2) {
   return {.5 * grain.velocity.squaredNorm(), .5 * own_spin.cwiseAbs2().dot(gyration_m2)};
 }
 
-/// How many contacts hold each grain: not those that it grazes, which push so much less than its
-/// hardest that their friction moves nothing.
+/// Number of contacts that support each grain, without grazing ones, whose force is so much smaller
+/// than the largest that their friction has no effect.
 std::vector<int> contacts_of_each(const Simulation& simulation) {
   constexpr double kGraze = .01;
   const std::vector<ContactState> all = simulation.contacts();
@@ -47,7 +47,7 @@ std::vector<int> contacts_of_each(const Simulation& simulation) {
   return contacts;
 }
 
-/// Sum of all grains.
+/// Sum over all grains, per mass.
 double energy_m2_s2(const Simulation& simulation) {
   const bool resists_all_spin =
       simulation.setup().contacts.rolling() == RollingModel::constant_torque;

@@ -72,7 +72,7 @@ void check(const Model& model, const RollProtocol& protocol) {
   errors.throw_if_any();
 }
 
-/// A flat without end, and on it a box whose upper face meets it at the foot, without a step.
+/// An infinite flat, and on it a box whose upper face meets it at the foot without a step.
 std::vector<Wall> walls_of(const Model& model, const RollProtocol& protocol, const Incline& slope) {
   const double reach_m = model.grain.reach_m();
   const double length = protocol.release_m + 10 * reach_m;
@@ -84,7 +84,7 @@ std::vector<Wall> walls_of(const Model& model, const RollProtocol& protocol, con
                                          {.position = centre, .orientation = slope.orientation})};
 }
 
-/// What a grain that does not stop does on the flat, and which coefficient would end it.
+/// Describes the motion of a grain that does not stop, and the coefficient that would stop it.
 std::string unrest(const Model& model, const Grain& grain) {
   const PairCoefficients& wall = model.grain_wall;
   const double height = grain.position.z();
@@ -118,7 +118,7 @@ double roll_to_rest(ExperimentRun& run, const Model& model) {
   double hop_m = 0;
   while (!rest.is_at_rest(run.simulation())) {
     const Grain grain = run.simulation().grain(0);
-    // Nearer to the foot it may still lie on the incline.
+    // Closer to the foot it may still touch the incline.
     if (grain.position.x() > model.grain.reach_m()) {
       hop_m = std::max(hop_m, lowest_m(model.grain, grain));
     }
@@ -134,12 +134,12 @@ double roll_to_rest(ExperimentRun& run, const Model& model) {
   return hop_m;
 }
 
-/// None on the flat: the grain has stayed on the incline.
+/// Distance along the flat, m; 0 if the grain has stayed on the incline.
 double on_flat_m(const Simulation& simulation) {
   return std::max(0., simulation.grain(0).position.x());
 }
 
-/// One release, from letting go to rest.
+/// One release, until at rest.
 struct Rolled {
   ExperimentRun run;
   double hop_m = 0;  ///< see roll_to_rest()
@@ -149,7 +149,7 @@ Rolled rolled(const Model& model, const RollProtocol& protocol, const Grain& gra
               const Observers& observers) {
   const Incline slope = incline_of(protocol);
   const double reach = model.grain.reach_m();
-  // No part of the grain meets a wall faster than by a free fall from where it is let go.
+  // No part of the grain hits a wall faster than after a free fall from the release point.
   const double speed =
       std::sqrt(2 * kStandardGravity_m_s2 * (reach - protocol.release_m * slope.down.z()));
   ExperimentRun run(Simulation(model_setup(model, model.grain, walls_of(model, protocol, slope),
@@ -194,7 +194,7 @@ std::vector<ProtocolKey> keys_of_roll(Protocol& protocol) {
           number_key("release_turn_deg", "10", {.from = 0, .to = 90}, roll.release_turn_deg)};
 }
 
-/// Nothing limits how far it may roll but the fit, see kMaxReading.
+/// No upper limit here; the fit has one, see kMaxReading.
 Range possible_roll(const Model& /*model*/, const Protocol& /*protocol*/) { return {.from = 0}; }
 
 double cost_of_roll_s(const Model& model, const Protocol& /*protocol*/) {

@@ -30,7 +30,7 @@ Quaternion turn_on_plate(const Simulation& simulation, int wall, int grain) {
 
 namespace {
 
-/// How far apart along `direction` (unit) two equal grains are that just touch.
+/// Distance along `direction` (unit) between two equal grains that just touch.
 double touching_distance_m(const ClumpShape& grain, const Vector& direction) {
   double distance = 0;
   for (const ClumpSphere& a : grain.spheres) {
@@ -68,25 +68,26 @@ ClumpShape bonded_shape(const ClumpShape& grain, int count) {
 namespace {
 
 constexpr int kPlate = 0;
-/// How long before it slides or tips the plate begins to turn, and how far short of that at least.
+/// Time before sliding or tipping at which the plate starts to turn, and the minimum angle in
+/// between.
 constexpr double kLead_s = .375;
 constexpr double kMinLead_deg = .5;
-/// Slip that the onset is read from, as fractions of the grain's reach: from well above the
-/// springs' stretch to where the plate has turned by less than a degree or so.
+/// Range of slip used for the onset, as fractions of the grain's reach: from well above the
+/// springs' stretch to where the plate has turned by about a degree.
 constexpr double kMinSlip = .002;
 constexpr double kMaxSlip = .1;
 constexpr double kReportedSlip_m = .5e-3;
-/// A body that has turned by this much against the plate tips or rolls.
+/// A body that has rotated by this much relative to the plate tips or rolls.
 constexpr double kTipped_deg = 5;
 constexpr double kLongestGrainSettling_s = 2;
-/// Restitution between body and plate, at most. While a body slides, friction and contacts that
-/// lose little drive each other: it rattles, and slides below the angle of friction. It slides a
-/// little even where it is put down on a slope, until its weight has come on, and would rattle on
-/// from there. What is read, the angle at which it sets off from rest, has no restitution in it
+/// Maximum restitution between body and plate. While a body slides, friction and weakly damped
+/// contacts excite each other: it rattles, and slides below the angle of friction. It slides
+/// slightly even when put down on a slope, until its full weight acts, and would keep rattling. The
+/// value measured, the angle at which it starts from rest, does not depend on restitution
 /// (Tilt.RestitutionDoesNotMatter).
 constexpr double kMaxRestitution = .5;
-/// How far the cube root of the slip may rise from how it rises from rest, as a fraction of that.
-/// Bodies that slide from rest keep within a hundredth.
+/// Maximum relative deviation of the slope of the cube root of slip from that for a start from
+/// rest. Bodies that start from rest stay within a hundredth.
 constexpr double kMaxCreep = .2;
 
 void check(const Model& model, const TiltProtocol& protocol) {
@@ -115,7 +116,7 @@ void check(const Model& model, const TiltProtocol& protocol) {
 
 Model quiet(Model model) {
   model.grain_wall.restitution = std::min(model.grain_wall.restitution, kMaxRestitution);
-  model.grain_wall.restitution_exponent = 0;  // slow contacts would restore more than that
+  model.grain_wall.restitution_exponent = 0;  // slow contacts would exceed that
   return model;
 }
 
@@ -170,7 +171,7 @@ double onset_deg(const Slide& slide, double begin_deg, double rate_deg_s) {
 
 namespace {
 
-/// Lays the body on the plate at its first angle and waits until it rests there.
+/// Waits until the body is at rest on the plate at its first angle.
 void settle_grain(ExperimentRun& run, double begin_deg) {
   RestTest rest(run.simulation().setup());
   const std::int64_t steps = run.steps_of(rest.interval_s());
@@ -186,8 +187,8 @@ void settle_grain(ExperimentRun& run, double begin_deg) {
   }
 }
 
-/// Time between two looks: a hundred or so for the slip that the onset is read from, by the law of
-/// onset_deg() on a level plate.
+/// Time between two looks: about a hundred for the slip used for the onset, by the law in
+/// onset_deg() for a level plate.
 double look_interval_s(const ClumpShape& grain, double rate_deg_s) {
   const double jerk_m_s3 = kStandardGravity_m_s2 * rate_deg_s * kDegree;
   return .01 * std::cbrt(6 * kMaxSlip * grain.reach_m() / jerk_m_s3);
@@ -223,8 +224,8 @@ Slide slide_off(ExperimentRun& run, const ClumpShape& grain, double begin_deg, d
   return slide;
 }
 
-/// As a camera sees it: the plate turns from its first angle about a hinge below the body, until
-/// that has slid by some widths of its grains, or tips.
+/// For frames: the plate turns from its first angle about a hinge below the body, until the body
+/// has slid by some grain widths or tips.
 void show_tilt(const Model& model, const TiltProtocol& protocol, const ClumpShape& body,
                const SimulationSetup& setup, const Observers& observers) {
   constexpr double kArm = 20, kShownSlip = 10;  // in reaches of a grain
@@ -271,11 +272,11 @@ Repeat run_tilt(const Model& model, const TiltProtocol& protocol, std::uint64_t 
         "once: it holds up to {:.2f} degrees. Fix: start_deg = 0.",
         protocol.start_deg, hold_deg));
   }
-  // The body meets the plate no faster than by a fall through a hundredth of its reach.
+  // The body hits the plate no faster than after a fall through a hundredth of its reach.
   const double speed = std::sqrt(2 * kStandardGravity_m_s2 * .01 * body.reach_m());
   const Wall plate = study_wall(Plane{}, {.orientation = slope(begin_deg)});
   const SimulationSetup setup = model_setup(quiet(model), body, {plate}, speed, kCourseFraction);
-  // One that is filmed is done a second time for that.
+  // If frames are recorded, the experiment is run a second time for them.
   if (record.frame) show_tilt(model, protocol, body, setup, {report, record});
   const RunRecord unseen;
   ExperimentRun run(Simulation(setup), {report, unseen});
@@ -307,7 +308,7 @@ double cost_of_tilt_s(const Model& model, const Protocol& protocol) {
 
 }  // namespace
 
-/// It depends on the sliding friction alone: rolling friction from .04 to .3 moved the angle by .03
+/// Depends on sliding friction only: rolling friction from .04 to .3 changed the angle by .03
 /// degrees, restitution by less than .001.
 ExperimentEntry tilt_entry() {
   return {.name = "tilt",
@@ -322,7 +323,7 @@ ExperimentEntry tilt_entry() {
           .sheet = {.test = "sliding", .value = "angle_deg"},
           .is_stochastic = false,
           .filmed = FilmedMotion::slide,
-          // A hand or a worn motor does not keep it, and the angle hardly depends on it.
+          // A hand or a worn motor does not hold it, and the angle hardly depends on it.
           .filmed_settings = {{"rate_deg_s", "rate_deg_s", .2}},
           .usual_scatter = .1,
           .usual = TiltProtocol{},

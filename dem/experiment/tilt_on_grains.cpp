@@ -24,13 +24,14 @@ constexpr int kBoard = 0;
 constexpr int kBed = 1;
 constexpr int kMaxBonded = 10;
 constexpr double kLongestBedSettling_s = 5;
-/// Shifts down the slope, in diameters of a grain: a body moves, and has set off for good.
+/// Shifts down the slope, in grain diameters, at which a body has first moved, and has left for
+/// good.
 constexpr double kShift = .1;
 constexpr double kSetOff = 1;
-/// Slower than this, as a fraction of sqrt(g d), a body stands still.
+/// Below this speed, as a fraction of sqrt(g d), a body stands still.
 constexpr double kStill = .01;
 
-/// What both experiments are: a tilt of bodies, a roll of single grains.
+/// Common to both experiments: tilting of bonded bodies, rolling of single grains.
 struct Tilting {
   std::string_view name;
   int bonded = 1;
@@ -63,9 +64,9 @@ void check(const Model& model, const Tilting& tilting) {
   errors.throw_if_any();
 }
 
-/// How one body leaves its place.
+/// State of one body leaving its place.
 struct Leaving {
-  double begin_m = 0;    ///< its place down the slope
+  double begin_m = 0;    ///< initial position down the slope
   double shift_m = 0;    ///< from there
   double still_deg = 0;  ///< the plate's angle when it last stood still
   std::optional<double> first_shift_deg;
@@ -103,7 +104,7 @@ class TiltRun {
     Random random(seed);
     const ClumpShape body = bonded_shape(model.grain, tilting.bonded);
     const SphereBed bed = glued_bed(model.grain, tilting.coverage, random);
-    // Rolling out of one hollow and into the next.
+    // Speed of rolling out of one hollow into the next.
     const double speed = std::sqrt(2 * kStandardGravity_m_s2 * diameter_m(model.grain));
     ExperimentRun run(Simulation(model_setup(model, body, grain_covered(study_wall(Plane{}), bed),
                                              speed, kCourseFraction)),
@@ -142,7 +143,7 @@ class TiltRun {
       simulation.set_motions(
           wall, {{.spin = tilting_.rate_deg_s * kDegree * Vector::UnitY(), .start_s = begin_s}});
     }
-    // A body that starts from rest on a slope takes some ten looks for a tenth of its diameter.
+    // A body starting from rest on a slope moves a tenth of its diameter in about ten looks.
     const std::int64_t steps = run_.steps_of(.01 * std::sqrt(diameter_m_ / kStandardGravity_m_s2));
     for (bool are_over = false; !are_over;) {
       run_.advance(steps);
@@ -159,7 +160,8 @@ class TiltRun {
     }
   }
 
-  /// @return whether the body has left; it is taken away then, but for the last one, to look at
+  /// @return whether the body has left; it is then removed, except the last one, which is kept for
+  /// viewing
   bool look_at(int number, double angle_deg, std::int64_t steps) {
     Leaving& body = at(number);
     if (body.is_over) return true;
@@ -230,12 +232,12 @@ Range possible_on_grains(const Model& /*model*/, const Protocol& /*protocol*/) {
   return from_to(0, 90);
 }
 
-/// Grains roll out of one hollow and into the next.
+/// Grains roll out of one hollow into the next.
 double fall_on_grains_m(const ClumpShape& grain, const Protocol& /*protocol*/) {
   return diameter_m(grain);
 }
 
-/// Of bodies that lie still until the plate is at some 45 degrees.
+/// For bodies that lie still until the plate is at about 45 degrees.
 double cost_on_grains_s(const Model& model, double rate_deg_s, int bonded, int places) {
   constexpr double kSpeed_m_s = .3, kSettling_s = 1, kLeaves_deg = 45;
   return step_on_grains_s(model, bonded) * places * (kSettling_s + kLeaves_deg / rate_deg_s) /
@@ -244,8 +246,8 @@ double cost_on_grains_s(const Model& model, double rate_deg_s, int bonded, int p
 
 }  // namespace
 
-/// Sliding friction from .2 to .6 moved the angle by some 18 degrees, rolling friction from .02 to
-/// .2 by 0 to 3, restitution by less than it scatters.
+/// Sliding friction from .2 to .6 changed the angle by about 18 degrees, rolling friction from .02
+/// to .2 by 0 to 3, restitution by less than the scatter.
 ExperimentEntry tilt_on_grains_entry() {
   return {.name = "tilt_on_grains",
           .unit = "deg",
@@ -284,8 +286,8 @@ ExperimentEntry tilt_on_grains_entry() {
               }};
 }
 
-/// Rolling friction from .02 to .2 moved the angle by some 12 degrees, sliding friction and
-/// restitution by less than it scatters.
+/// Rolling friction from .02 to .2 changed the angle by about 12 degrees, sliding friction and
+/// restitution by less than the scatter.
 ExperimentEntry roll_on_grains_entry() {
   return {.name = "roll_on_grains",
           .unit = "deg",

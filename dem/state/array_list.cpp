@@ -53,7 +53,7 @@ template class ArrayStream<double>;
 template class ArrayStream<std::int64_t>;
 
 Vector take_vector(NumberStream& numbers) {
-  constexpr double kMax = 1e12;  // in any SI unit; sums and squares of these are still numbers
+  constexpr double kMax = 1e12;  // in any SI unit; sums and squares stay finite
   const double x = numbers.take();
   const double y = numbers.take();
   const Vector vector(x, y, numbers.take());

@@ -9,7 +9,7 @@
 
 namespace repose::dem {
 
-/// Gathers arrays for a file, by name.
+/// Collects named arrays for a file.
 class ArrayWriter {
  public:
   explicit ArrayWriter(std::string prefix = {}) : prefix_(std::move(prefix)) {}
@@ -17,7 +17,7 @@ class ArrayWriter {
   void numbers(const std::string& name, int components, std::vector<double> values);
   void integers(const std::string& name, int components, std::vector<std::int64_t> values);
   void texts(const std::string& name, std::vector<std::string> values);
-  /// Arrays that have their names already.
+  /// Adds arrays that already have their full names.
   void add(std::vector<VtkArray> arrays);
 
   std::vector<VtkArray> take() { return std::move(arrays_); }
@@ -31,7 +31,7 @@ class ArrayWriter {
 void append(std::vector<double>& values, const Vector& vector);
 void append(std::vector<double>& values, const Quaternion& quaternion);  ///< w x y z
 
-/// The values of one array, taken one after the other and never more than there are.
+/// Sequential, bounds-checked access to the values of one array.
 template <typename Number>
 class ArrayStream {
  public:
@@ -41,7 +41,7 @@ class ArrayStream {
   std::size_t left() const { return values_.size() - at_; }
   bool is_at_end() const { return left() == 0; }
   const std::string& name() const { return name_; }
-  /// @throws base::InputError  there is none left.
+  /// @throws base::InputError  no value is left.
   Number take();
 
  private:
@@ -53,23 +53,23 @@ class ArrayStream {
 using NumberStream = ArrayStream<double>;
 using IntegerStream = ArrayStream<std::int64_t>;
 
-/// None of its numbers beyond 1e12. @throws base::InputError
+/// @throws base::InputError  a number is beyond 1e12 in magnitude, or not enough are left.
 Vector take_vector(NumberStream& numbers);
 /// @throws base::InputError  it is not of unit length.
 Quaternion take_quaternion(NumberStream& numbers);
-/// A whole number from 0 to below `end`.
+/// An integer from 0 to below `end`.
 int take_index(IntegerStream& integers, std::size_t end);
 /// All values must have been used. @throws base::InputError
 void check_end(bool is_at_end, const std::string& name);
 
-/// Finds arrays by name; every error names the array. Throws base::InputError.
+/// Finds arrays by name. Throws base::InputError naming the array.
 class ArrayReader {
  public:
   explicit ArrayReader(const std::vector<VtkArray>& arrays, std::string prefix = {})
       : arrays_(arrays), prefix_(std::move(prefix)) {}
 
   bool has(const std::string& name) const;
-  /// All finite.
+  /// All values are finite.
   NumberStream numbers(const std::string& name, int components) const;
   IntegerStream integers(const std::string& name, int components) const;
   const std::vector<std::string>& texts(const std::string& name) const;

@@ -11,7 +11,7 @@
 namespace repose::dem {
 namespace {
 
-constexpr const char* kAbsent = "absent_";  // before the names of grains that have left
+constexpr const char* kAbsent = "absent_";  // name prefix for grains that have left
 constexpr int kContactNumbers = 7;
 constexpr const char* kPush = "contact_push";
 constexpr const char* kEqualSince = "equal_steps_since";
@@ -59,7 +59,7 @@ std::vector<double> positions_of(const Checkpoint& checkpoint, const std::vector
   return positions;
 }
 
-/// Fills the places of these grains in a checkpoint that has room for all.
+/// Fills in these grains in a checkpoint sized for all.
 void take_grains(const ArrayReader& arrays, NumberStream position, std::size_t kinds, bool present,
                  Checkpoint& checkpoint, std::vector<bool>& is_filled) {
   IntegerStream number = arrays.integers("grain", 1), kind = arrays.integers("kind", 1);
@@ -124,7 +124,7 @@ int take_partner(IntegerStream& integers, std::size_t grains, std::size_t walls)
   return static_cast<int>(number);
 }
 
-/// States of before version 3 hold none, and are not gone on from.
+/// Absent in states from before version 3.
 void take_pushes(NumberStream pushes, std::vector<ContactState>& contacts) {
   for (ContactState& contact : contacts) contact.normal_force_n = pushes.take();
   check_end(pushes.is_at_end(), pushes.name());
@@ -152,7 +152,7 @@ std::vector<ContactState> contacts_in(const ArrayReader& arrays, const Checkpoin
   return contacts;
 }
 
-/// States of before version 7, whose steps were all as long, hold none.
+/// Absent in states from before version 7, whose steps were all equally long.
 EqualSteps equal_steps_in(const ArrayReader& fields, std::int64_t step) {
   const EqualSteps equal = {.since_step = fields.integers(kEqualSince, 1).take(),
                             .since_s = fields.numbers(kEqualSince_s, 1).take()};

@@ -41,7 +41,7 @@ void add_contact_table(ArrayWriter& arrays, const ContactTable& table) {
   }
 }
 
-/// Per contact where it is not said: so did all programs that did not say it.
+/// Per contact if absent: it is written only for other models.
 DampingModel damping_in(const ArrayReader& arrays) {
   if (!arrays.has(kDamping)) return DampingModel::per_contact;
   const auto& models = arrays.texts(kDamping);
@@ -208,7 +208,7 @@ SimulationSetup setup_in(const ArrayReader& arrays) {
 
 namespace {
 
-/// Three lengths stand for every plain shape; meshes have arrays of their own.
+/// Three lengths describe every plain shape; meshes have their own arrays.
 Vector size_of(const WallShape& shape) {
   if (const auto* box = std::get_if<Box>(&shape)) return box->half_size;
   if (const auto* tube = std::get_if<Tube>(&shape)) {
@@ -227,7 +227,7 @@ constexpr const char* kBeds = "wall_bed_tile_from_to_spheres";
 constexpr const char* kBedSpheres = "wall_bed_sphere";
 constexpr int kBedShape = 4;  ///< number of the shape
 
-/// Arrays of their own too, in files of walls with beds alone.
+/// Beds have their own arrays, present only if there are beds.
 void add_beds(ArrayWriter& arrays, const std::vector<Wall>& walls) {
   std::vector<double> beds, spheres;
   for (const Wall& wall : walls) {
@@ -278,7 +278,7 @@ std::vector<SphereBed> beds_in(const ArrayReader& arrays) {
   return read;
 }
 
-/// `shape` counts as WallShape does; beds are set apart.
+/// `shape` is the index in WallShape; beds are handled separately.
 WallShape shape_of(int shape, const Vector& size, Mesh mesh) {
   switch (shape) {
     case 0:

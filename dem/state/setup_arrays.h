@@ -17,7 +17,8 @@ std::vector<Wall> walls_in(const ArrayReader& arrays);
 void add_kinds(ArrayWriter& arrays, const std::vector<GrainKind>& kinds);
 std::vector<GrainKind> kinds_in(const ArrayReader& arrays);
 
-/// Meshes one after the other: how many corners and triangles each has, then all of them.
+/// Concatenated meshes: the numbers of corners and triangles of each, then the corners and
+/// triangles.
 void add_meshes(ArrayWriter& arrays, const std::string& name,
                 const std::vector<const Mesh*>& meshes);
 std::vector<Mesh> meshes_in(const ArrayReader& arrays, const std::string& name);

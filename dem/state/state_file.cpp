@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Counts up when older programs cannot read the arrays any more.
+/// Incremented when older programs can no longer read the arrays.
 constexpr std::int64_t kStateFormat = 1;
 constexpr const char* kFix = "give a .vtp file that repose wrote, unchanged.";
 
@@ -33,7 +33,7 @@ void check_format(const ArrayReader& fields) {
   }
 }
 
-/// A comment behind the document, with the fingerprint of all before it.
+/// A comment after the document, with the fingerprint of everything before it.
 constexpr std::string_view kSealBegins = "<!-- fingerprint ", kSealEnds = " -->\n";
 
 std::string seal_of(const std::string& text) {
@@ -55,7 +55,7 @@ std::string state_text(const Simulation& simulation, const std::string& provenan
   ArrayWriter fields;
   fields.integers("repose_state_format", 1, {kStateFormat});
   fields.texts("provenance", {provenance_json});
-  fields.numbers("TimeValue", 1, {simulation.time_s()});  // the name that VTK knows
+  fields.numbers("TimeValue", 1, {simulation.time_s()});  // the name that VTK recognises
   add_setup(fields, simulation.setup());
   add_checkpoint(simulation.checkpoint(), simulation, points, fields);
   points.field_arrays = fields.take();

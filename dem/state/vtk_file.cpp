@@ -51,7 +51,7 @@ std::size_t size_of(const VtkArray::Values& values) {
   return std::visit([](const auto& list) { return list.size(); }, values);
 }
 
-/// A whole number of 0 or more; none otherwise.
+/// A non-negative integer; otherwise std::nullopt.
 std::optional<std::size_t> count_in(const pugi::xml_attribute& attribute) {
   const std::string_view text = attribute.value();
   std::size_t count = 0;
@@ -183,7 +183,7 @@ Bytes bytes_of(const std::vector<Number>& values) {
   return bytes;
 }
 
-/// Strings follow each other, each with a zero at its end.
+/// Concatenated zero-terminated strings.
 Bytes bytes_of(const std::vector<std::string>& texts) {
   Bytes bytes;
   for (const std::string& text : texts) {
@@ -223,7 +223,7 @@ std::string elements(const std::vector<VtkArray>& arrays, bool is_field) {
   return text;
 }
 
-/// One vertex cell for each point.
+/// One vertex cell per point.
 std::string vertices(std::size_t points) {
   std::vector<std::int64_t> connectivity(points), offsets(points);
   std::iota(connectivity.begin(), connectivity.end(), 0);

@@ -8,7 +8,7 @@
 
 namespace repose::dem {
 
-/// Named values of a VTK file, `components` to a tuple.
+/// Named values of a VTK file, `components` per tuple.
 struct VtkArray {
   using Values =
       std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>>;
@@ -18,20 +18,19 @@ struct VtkArray {
   Values values;
 };
 
-/// Points with values, and values that belong to the whole.
+/// Points with values, and values of the whole data set.
 struct VtkPoints {
-  std::vector<double> positions;  ///< x, y, z of each
+  std::vector<double> positions;  ///< x, y, z of each point
   std::vector<VtkArray> point_arrays;
   std::vector<VtkArray> field_arrays;
 };
 
-/// The text of a .vtp file (VTK XML PolyData 1.0): each point is a vertex cell, so that it is
-/// drawn. Numbers are Float64 or Int64, little endian, as base64 behind a UInt64 with their bytes:
-/// exact.
+/// The text of a .vtp file (VTK XML PolyData 1.0): each point has a vertex cell, so that it is
+/// drawn. Numbers are Float64 or Int64, little endian, in base64 after a UInt64 byte count: exact.
 std::string vtk_text(const VtkPoints& points);
 
-/// Reads what vtk_text writes. `file` is what errors call it.
-/// @throws base::InputError  another kind of file, or one that is cut short or edited.
+/// Reads what vtk_text writes. `file` appears in errors.
+/// @throws base::InputError  another kind of file, or truncated or edited.
 VtkPoints parse_vtk(const std::string& file, std::string_view text);
 
 }  // namespace repose::dem

@@ -30,7 +30,7 @@ void StudyErrors::throw_if_any() const {
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Error& a, const Error& b) { return order(a) < order(b); });
-  constexpr std::size_t kMax = 100;  // errors that are listed
+  constexpr std::size_t kMax = 100;  // errors listed
   std::vector<base::Fault> faults;
   for (const Error& error : sorted) {
     if (faults.size() < kMax) faults.push_back(error.fault);
@@ -47,7 +47,7 @@ namespace {
 
 using Kind = ConfigValue::Kind;
 
-/// Where in a line the letter number `column` (from 1) of UTF-8 starts.
+/// Byte offset of the UTF-8 character number `column` (from 1) in a line.
 std::size_t byte_of(std::string_view line, std::size_t column) {
   std::size_t at = 0;
   for (std::size_t letter = 1; at < line.size(); ++at) {
@@ -57,7 +57,7 @@ std::size_t byte_of(std::string_view line, std::size_t column) {
   return at;
 }
 
-/// A text whose parts can be shown as they were typed.
+/// A text whose parts can be quoted as typed.
 class SourceText {
  public:
   SourceText(std::string text, Place file) : text_(std::move(text)), file_(std::move(file)) {
@@ -67,7 +67,7 @@ class SourceText {
       start = end + 1;
     }
   }
-  SourceText(const SourceText&) = delete;  // its lines are parts of its text
+  SourceText(const SourceText&) = delete;  // its lines point into its text
   SourceText& operator=(const SourceText&) = delete;
   SourceText(SourceText&&) = delete;
   SourceText& operator=(SourceText&&) = delete;
@@ -80,7 +80,7 @@ class SourceText {
     place.column = static_cast<int>(source.begin.column);
     return place;
   }
-  /// The first line of what stands there.
+  /// The first line of the given region.
   std::string shown(const toml::source_region& source) const {
     if (source.begin.line < 1 || source.begin.line > lines_.size()) return {};
     const std::string_view line = lines_[source.begin.line - 1];
@@ -90,7 +90,7 @@ class SourceText {
   }
 
  private:
-  /// Enough to know it again.
+  /// Enough to recognise it.
   static std::string cut(std::string_view shown) {
     constexpr std::size_t kMaxLetters = 120;
     const std::size_t end = byte_of(shown, kMaxLetters + 1);
@@ -136,7 +136,7 @@ ConfigValue converted(const toml::node& node, const std::string& name, const Sou
   return value;
 }
 
-/// Sections are merged, all else is replaced.
+/// Merges sections, replaces everything else.
 void lay_over(ConfigValue& below, const ConfigValue& above) {
   for (const ConfigValue& item : above.items) {
     const auto same = std::find_if(below.items.begin(), below.items.end(),
@@ -151,13 +151,13 @@ void lay_over(ConfigValue& below, const ConfigValue& above) {
   }
 }
 
-/// With the zeros that TOML wants around the point of a number: "x=.4" is "x=0.4", "x=5." "x=5.0".
-/// What stands in quotes stays, and so do the points of keys.
+/// Adds the zeros that TOML requires around a decimal point: "x=.4" becomes "x=0.4", "x=5." becomes
+/// "x=5.0". Quoted text and points in keys are unchanged.
 std::string with_zeros(const std::string& setting) {
   const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
   std::string text;
-  char quote = 0;   // that is open
-  char before = 0;  // the letter before, but for signs
+  char quote = 0;   // the open one, if any
+  char before = 0;  // the previous letter, ignoring signs
   bool is_value = false;
   for (std::size_t at = 0; at < setting.size(); ++at) {
     const char letter = setting[at];
@@ -167,7 +167,7 @@ std::string with_zeros(const std::string& setting) {
     } else if (letter == quote) {
       quote = 0;
     } else if (quote == '"' && letter == '\\') {
-      text += letter;  // and the letter that it stands before
+      text += letter;  // and the escaped letter
       text += next;
       ++at;
       continue;

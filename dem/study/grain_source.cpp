@@ -22,7 +22,7 @@ ClumpFile filled(const Mesh& surface, const FillOptions& options) {
   return {.source = {}, .repairs = {}, .shape = std::move(filled.shape), .errors = filled.errors};
 }
 
-/// As large as the source says.
+/// At the size given by the source.
 ClumpFile unscaled_grain(const GrainSource& source) {
   if (source.clump) return read_clump_file(*source.clump);
   if (source.scan) {

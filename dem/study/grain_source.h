@@ -16,16 +16,16 @@ struct GrainSource {
   ScanUnit scan_unit = ScanUnit::millimetre;
   std::optional<CalliperSizes> sizes;
   std::optional<std::filesystem::path> clump;
-  FillOptions fill;        ///< of a scan or of sizes; a clump file has its spheres
-  double size_factor = 1;  ///< by which all its lengths are multiplied
+  FillOptions fill;        ///< for a scan or sizes; a clump file has its own spheres
+  double size_factor = 1;  ///< all lengths are multiplied by it
 };
 
-/// Reads the scan, clump file or sizes and fills the surface with spheres: seconds, where reading a
-/// study takes none.
-/// @throws base::InputError  all that is wrong with the file or the surface.
+/// Reads the scan or clump file, or takes the sizes, and fills the surface with spheres. Takes
+/// seconds, unlike reading a study.
+/// @throws base::InputError  all errors in the file or the surface.
 ClumpFile build_grain(const GrainSource& source);
 
-/// Multiplies all its lengths; errors that are fractions stay.
+/// Multiplies all lengths; relative errors stay.
 void scale(ClumpFile& clump, double factor);
 
 }  // namespace repose::dem

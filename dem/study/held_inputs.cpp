@@ -65,7 +65,7 @@ Numbers numbers_of_particle(Study& study) {
   return numbers;
 }
 
-/// All that a study has, in the order of its sections.
+/// All numbers of a study, in the order of its sections.
 std::vector<Numbers> numbers_of(Study& study) {
   std::vector<Numbers> all = {numbers_of_particle(study)};
   all.push_back({.section = "wall", .keys = {}});
@@ -81,7 +81,7 @@ std::vector<Numbers> numbers_of(Study& study) {
   return all;
 }
 
-/// Why a key of a study has no uncertainty; empty: it may have one.
+/// Why a key cannot have an uncertainty; empty if it can.
 std::string why_exact(const ProtocolKey& key) {
   if (std::holds_alternative<int*>(key.value) ||
       std::holds_alternative<std::optional<int>*>(key.value)) {
@@ -99,7 +99,7 @@ void set(const ProtocolKey& key, double value) {
   }
 }
 
-/// By so much the value is changed; 0: neither more nor less is possible.
+/// Change of the value: sd, -sd, or 0 if neither is allowed.
 double step_of(const ProtocolKey& key, double sd) {
   const double value = value_of(key).value_or(0);
   if (key.range.contains(value + sd)) return sd;
@@ -118,7 +118,7 @@ void take(Section& section, const ConfigValue& stated, const std::string& name,
   study.stated_sd[name] = sd;
 }
 
-/// One number for each axis, or for all three.
+/// One number per axis, or one for all three.
 void read_axes(Section& particle, const Numbers& numbers, Study& study) {
   const std::string example = "size_mm = [0.2, 0.15, 0.15]";
   const ConfigValue* stated = particle.value("size_mm");
@@ -174,7 +174,7 @@ void read_numbers(Section section, const Numbers& numbers, Study& study) {
   section.reject_unknown_keys();
 }
 
-/// Of a key by its name: "lift_speed_mm_s" is in mm/s.
+/// Unit of a key, from its name: "lift_speed_mm_s" is in mm/s.
 std::string unit_of(const std::string& name) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kUnits = {
       {{"_kg_m3", "kg/m3"},
@@ -193,7 +193,7 @@ std::string unit_of(const std::string& name) {
   return {};
 }
 
-/// What is assumed of one that the study does not state; 0: nothing.
+/// Assumed uncertainty of a number without a stated one; 0: none.
 double assumed_sd(const Study& study, const std::string& name, double value) {
   if (name == "wall.young_modulus_pa" || name == "particle.young_modulus_pa") {
     return kAssumedModulusFraction * value;
@@ -218,7 +218,7 @@ void read_uncertainty(Section uncertainty, Study& study) {
     const std::size_t dot = numbers.section.find('.');
     const std::string name = numbers.section.substr(dot + 1);
     if (numbers.section == "wall") {
-      continue;  // after its parts, which are keys of it
+      continue;  // below, after its parts, which are keys of it
     }
     if (dot == std::string::npos) {
       read_numbers(uncertainty.section(name), numbers, study);
@@ -235,7 +235,7 @@ void read_uncertainty(Section uncertainty, Study& study) {
 std::vector<HeldInput> held_inputs(const Study& study) {
   std::vector<HeldInput> inputs;
   if (!study.varies_inputs) return inputs;
-  Study own = study;  // the numbers are places to write to
+  Study own = study;  // the keys hold pointers for writing
   for (const Numbers& numbers : numbers_of(own)) {
     for (const ProtocolKey& key : numbers.keys) {
       if (!why_exact(key).empty()) continue;

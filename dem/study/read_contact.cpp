@@ -13,13 +13,13 @@
 namespace repose::dem {
 namespace {
 
-// What ContactTable accepts.
+// Ranges accepted by ContactTable.
 constexpr Range kRestitution = from_to(kMinRestitution, 1);
 constexpr Range kRestitutionBySpeed = from_to(kMinRestitution, kMaxRestitutionBySpeed);
 constexpr Range kExponent = from_to(0, kMaxRestitutionExponent);
 constexpr Range kFriction = from_to(0, 100);
 
-/// What is known beforehand: { min = 0.1, max = 0.6, mean = 0.3, sd = 0.05 }.
+/// Prior knowledge: { min = 0.1, max = 0.6, mean = 0.3, sd = 0.05 }.
 void read_known(Section& bounds, const BoundsRules& rules, Coefficient& coefficient) {
   coefficient.known_mean = bounds.number("mean", rules.mean, "mean = 0.3");
   coefficient.known_sd = bounds.number("sd", rules.widths, "sd = 0.05");
@@ -105,8 +105,8 @@ Coefficient read_coefficient(Section& pair, const std::string& key, const Range&
   return coefficient;
 }
 
-/// How restitution depends on the speed of impact, where the study says so: an exponent and the
-/// speed that the restitution is of.
+/// Speed dependence of restitution, if the study has it: an exponent and the speed at which the
+/// restitution holds.
 void read_speed(Section& pair, CoefficientSet& set) {
   constexpr const char* kExponentKey = "restitution_exponent";
   constexpr const char* kSpeedKey = "restitution_speed_m_s";
@@ -116,7 +116,7 @@ void read_speed(Section& pair, CoefficientSet& set) {
     set.restitution_exponent =
         read_coefficient(pair, kExponentKey, kExponent, "0.1", "{ min = 0, max = 0.25 }");
   } else {
-    pair.value(kExponentKey);  // it could be there
+    pair.value(kExponentKey);  // marks the key as known
   }
   set.restitution_speed_m_s =
       pair.number(kSpeedKey, above(0, kFastest_m_s), "restitution_speed_m_s = 3");
@@ -130,7 +130,7 @@ void read_speed(Section& pair, CoefficientSet& set) {
                    : "take it out, or add restitution_exponent = { min = 0, max = 0.25 }");
 }
 
-/// A pair that is missing is told once, not key by key.
+/// A missing pair is reported once, not key by key.
 CoefficientSet read_pair(Section& contact, const std::string& key) {
   if (contact.exists() && !contact.has(key)) {
     contact.errors().add(
@@ -160,7 +160,7 @@ PairCoefficients values_of(const CoefficientSet& set) {
           .restitution_speed_m_s = set.restitution_speed_m_s.value_or(0)};
 }
 
-/// Reads the model that `key` names, one of `names`. Stays as it is when the study does not say.
+/// Reads the model named by `key`, one of `names`. Unchanged if not stated.
 template <typename Model, std::size_t kCount>
 void read_model(Section& contact, const std::string& key,
                 const std::array<std::pair<Model, std::string_view>, kCount>& names,
@@ -179,12 +179,13 @@ void read_model(Section& contact, const std::string& key,
   contact.wrong(*contact.value(key), "one of " + known, "for example " + example);
 }
 
-/// What grains do to a part of another material than the plate's: both are given, or neither.
+/// Coefficients with a part of another material than the plate's: material and coefficients must
+/// both be given, or neither.
 void read_part(Section& contact, WallPart part, Study& study) {
   const std::string key = "particle_" + name_of(part);
   const bool has_material = study.model.parts.contains(part);
   if (!has_material && !contact.has(key)) {
-    contact.value(key);  // it could be there
+    contact.value(key);  // marks the key as known
     return;
   }
   const CoefficientSet set = read_pair(contact, key);

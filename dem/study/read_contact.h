@@ -5,7 +5,8 @@
 
 namespace repose::dem {
 
-/// [contact]: the rolling model, and the coefficients of all pairs, once `study` has its walls.
+/// Reads [contact]: rolling and damping model, and the coefficients of all pairs. `study` must have
+/// its walls already.
 void read_contact(Section contact, Study& study);
 
 }  // namespace repose::dem

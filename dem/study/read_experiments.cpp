@@ -31,7 +31,7 @@ std::string measured_example() {
       experiment_names({.is_meant = is_pictured}), experiment_names({.is_meant = is_filmed}));
 }
 
-/// One way of saying it, and only one.
+/// Results must be given in exactly one way.
 void check_ways(Section& measured) {
   int ways = 0;
   for (const char* way : {"values", "mean", "readings", "pictures", "videos", "scans"})
@@ -45,12 +45,12 @@ void check_ways(Section& measured) {
       "for example " + measured_example());
 }
 
-/// How far bench and simulation may be apart and still agree.
+/// How far bench and simulation may differ and still agree.
 std::optional<double> read_tolerance(Section& measured) {
   return measured.number("tolerance", above(0, 1e6), "tolerance = 2");
 }
 
-/// What all readings share: the error of a ruler, the zero of a protractor, a density.
+/// The error common to all readings: of a ruler, the zero of a protractor, a density.
 std::vector<Systematic> read_bias(Section& measured) {
   const auto sd = measured.number(kBiasKey, from_to(0, 1e6), "bias_sd = 0.3");
   if (!sd || *sd == 0) return {};
@@ -93,7 +93,7 @@ void read_pictures_of_heap(const Section& measured, const ConfigValue& item,
   group.reject_unknown_keys();
 }
 
-/// pictures = ["photos"], of a heap each, or groups of several of one heap, or both.
+/// pictures = ["photos"], each of a different heap, or groups of several of one heap, or both.
 void read_pictures(Section& measured, const NamedFiles& files, Measured& result) {
   const std::string key = "pictures";
   const ConfigValue* list = measured.value(key);
@@ -124,7 +124,7 @@ void read_pictures(Section& measured, const NamedFiles& files, Measured& result)
   }
 }
 
-/// What cannot be photographed or filmed.
+/// Rejects pictures, films or scans of experiments that cannot be measured from them.
 void check_medium(Section& measured, const std::string& key, bool (*is)(const ExperimentEntry&),
                   const ExperimentEntry& entry, const std::string& how) {
   if (is(entry) || !measured.has(key)) return;
@@ -174,7 +174,7 @@ Measured read_measured(Section& experiment, const ExperimentEntry& entry, const 
   return result;
 }
 
-/// What is there says nothing without another key of the experiment.
+/// Adds an error if `value` has no effect without another key of the experiment.
 void refuse_without(const Section& experiment, const ConfigValue& value, const std::string& name,
                     std::string_view needed) {
   if (needed.empty() || experiment.has(std::string(needed))) return;
@@ -182,7 +182,7 @@ void refuse_without(const Section& experiment, const ConfigValue& value, const s
                    fmt::format("add {}, or take it out", needed));
 }
 
-/// [experiment.heap.also_measured]: readings beside the experiment's own number.
+/// [experiment.heap.also_measured]: readings besides the experiment's own value.
 void read_also(Section& experiment, const ExperimentEntry& entry, Measured& measured) {
   const auto is_measurable = [](const Reading& reading) { return reading.is_measurable; };
   if (std::ranges::none_of(entry.readings, is_measurable)) return;
@@ -209,7 +209,7 @@ void read_also(Section& experiment, const ExperimentEntry& entry, Measured& meas
   also.reject_unknown_keys();
 }
 
-/// Reads what the section says over the value that the protocol has.
+/// Overrides the protocol's value with that in the section, if any.
 void read_key(Section& section, const ProtocolKey& key) {
   const std::string line = key.name + " = " + key.example;
   double* const* needed = std::get_if<double*>(&key.value);

@@ -6,8 +6,7 @@
 
 namespace repose::dem {
 
-/// The sections of all experiments, [experiment.drop] and so on: how each is done and what it gave
-/// on the bench.
+/// Reads the sections of all experiments, such as [experiment.drop]: protocol and measured results.
 void read_experiments(Section experiments, const NamedFiles& files, Study& study);
 
 }  // namespace repose::dem

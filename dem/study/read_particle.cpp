@@ -14,22 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kUsualWallDensity_kg_m3 = 7850;  // steel; of no effect, but must be a number
+constexpr double kUsualWallDensity_kg_m3 = 7850;  // steel; no effect, but must be a number
 
-/// A unit that a number may have been typed in by mistake.
+/// A unit in which a number may have been given by mistake.
 struct Slip {
   const char* unit = "";
   double factor = 1;  ///< to the key's own unit
 };
 
-/// What a property of real materials is, and what the program can compute with.
+/// A material property: its range in real materials, and the range the program can compute with.
 struct ParticleProperty {
   const char* key = "";
   Range possible;
   Range plausible;
-  Range usual;  ///< where a number in another unit is looked for
+  Range usual;  ///< in which a number converted from another unit must lie
   const char* examples = "";
-  std::array<Slip, 3> slips = {};  ///< the likeliest first
+  std::array<Slip, 3> slips = {};  ///< most likely first
 };
 
 constexpr ParticleProperty kYoung{
@@ -47,7 +47,7 @@ constexpr ParticleProperty kDensity{
     .examples = "kg/m3: foam 20, wood and seeds 500 to 1300, steel 7850, tungsten 19300",
     .slips = {{{"g/cm3", 1e3}, {"t/m3", 1e3}, {"kg/mm3", 1e9}}}};
 
-/// Names of properties that may have any possible value.
+/// Checks the names of properties that may have any possible value.
 void check_allowed(Section& section) {
   const char* example = "allow = [\"young_modulus_pa\"]";
   const auto allowed = section.texts("allow", example);
@@ -67,10 +67,11 @@ bool is_allowed(Section& section, const std::string& key) {
                      [&](const ConfigValue& item) { return item.text == key; });
 }
 
-/// A number in another unit is possible, and simulates something else: nothing later finds it out.
+/// A number in a wrong unit may be possible but simulates something else, which nothing would
+/// detect later.
 void check_plausible(Section& section, const ParticleProperty& property) {
   const ConfigValue* value = section.value(property.key);
-  if (value == nullptr || !property.possible.contains(value->number)) return;  // said elsewhere
+  if (value == nullptr || !property.possible.contains(value->number)) return;  // reported elsewhere
   if (property.plausible.contains(value->number) || is_allowed(section, property.key)) return;
   std::string fix;
   for (const auto& [unit, factor] : property.slips) {
@@ -180,7 +181,7 @@ void read_colour(Section& particle, Study& study) {
   study.grain_colour = {(*colour)[0] / kWhite, (*colour)[1] / kWhite, (*colour)[2] / kWhite};
 }
 
-/// Exactly one of three.
+/// Exactly one of the three must be given.
 void check_one_shape(Section& particle) {
   const ConfigValue* first = nullptr;
   for (const char* key : {"scan", "size_mm", "clump"}) {

@@ -5,31 +5,31 @@
 #include "dem/study/section.h"
 #include "dem/study/study.h"
 
-/// What a study has in common with one that is fitted to a table of runs of another program, and
-/// has parameters in place of contact coefficients (calibrate/runs).
+/// Code shared with studies that are fitted to a table of another program's runs, and have
+/// parameters instead of contact coefficients (calibrate/runs).
 namespace repose::dem {
 
-/// The section of a study that makes it one of a table of runs.
+/// The section that marks a study of a table of runs.
 inline constexpr const char* kTableSection = "parameter";
 
-/// [study]: title, author, date and note. Its other keys are still unknown.
+/// Reads title, author, date and note of [study]. Its other keys are left to the caller.
 void read_heading(Section& section, StudyHeading& heading);
 
-/// What the numbers of { min = 0.1, max = 0.6 } may be.
+/// Allowed ranges of the numbers in { min = 0.1, max = 0.6 }.
 struct BoundsRules {
-  Range bounds;  ///< of both, and of a value between them
-  Range mean;    ///< known beforehand
+  Range bounds;  ///< of min, max and value
+  Range mean;    ///< of the prior mean
   Range widths;  ///< of sd and useful_half_width
 };
 
 /// { min = 0.1, max = 0.6, mean = 0.3, sd = 0.05, bounds = "known", useful_half_width = 0.05 }
-/// @param whole    as it is typed
-/// @param example  what a right line looks like
-/// @param takes_value  it may have a value for runs made before
+/// @param whole the value as typed
+/// @param example  a correct line
+/// @param takes_value  a value, for runs made beforehand, is allowed
 void read_bounds(Section bounds, const ConfigValue& whole, const BoundsRules& rules,
                  const std::string& example, bool takes_value, Coefficient& coefficient);
 
-/// definition = "whole_flank": by what an angle is measured; empty: not said.
+/// definition = "whole_flank": how an angle is measured; empty if not stated.
 std::string read_definition(Section& section);
 
 }  // namespace repose::dem

@@ -16,15 +16,16 @@ using Kind = ConfigValue::Kind;
 
 std::string for_example(const std::string& example) { return "for example " + example; }
 
-/// What names something: a zero byte would end it early, and a file of another name be opened.
+/// Text without control characters: a zero byte would truncate a file name, and another file be
+/// opened.
 bool is_text(const ConfigValue& value) {
   const auto is_control = [](char letter) { return letter >= 0 && letter < ' '; };
   return value.kind == Kind::text && !value.text.empty() &&
          std::none_of(value.text.begin(), value.text.end(), is_control);
 }
 
-/// A known key that begins like the one typed: "density" for "density_kg_m3", "height_m" for
-/// "height_mm"; else one that is spelt nearly the same.
+/// A known key spelt nearly like the one typed; else one that begins the same: "density" for
+/// "density_kg_m3", "height_m" for "height_mm".
 std::string guess(const std::string& typed, const std::vector<std::string>& known) {
   std::string best = base::closest_word(typed, known);
   if (!best.empty()) return best;

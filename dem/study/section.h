@@ -10,11 +10,11 @@
 
 namespace repose::dem {
 
-/// One table of a study, read key by key. StudyErrors are noted, not thrown; a value at error reads
-/// as if it were not there.
+/// One table of a study, read key by key. Errors are collected in StudyErrors, not thrown; an
+/// invalid value reads as missing.
 class Section {
  public:
-  /// @param table  null when the study does not have it.
+  /// @param table  null if the study does not have it.
   Section(const ConfigValue* table, std::string path, const Place& otherwise, StudyErrors& errors);
 
   bool exists() const { return table_ != nullptr; }
@@ -22,7 +22,7 @@ class Section {
   const std::string& path() const { return path_; }
   StudyErrors& errors() const { return *errors_; }
 
-  /// @param example  what a right line looks like: "height_mm = 500"
+  /// @param example  a correct line: "height_mm = 500"
   std::optional<double> number(const std::string& key, const Range& range,
                                const std::string& example);
   std::optional<std::int64_t> integer(const std::string& key, std::int64_t from, std::int64_t to,
@@ -32,12 +32,12 @@ class Section {
   std::optional<std::vector<double>> numbers(const std::string& key, const Range& range,
                                              const std::string& example);
   std::optional<std::vector<std::string>> texts(const std::string& key, const std::string& example);
-  /// An error when it is missing.
+  /// Adds an error if it is missing.
   double needed_number(const std::string& key, const Range& range, const std::string& example);
 
   /// A section within this one.
   Section section(const std::string& key);
-  /// Any value; null when it is not there.
+  /// Any value; null if missing.
   const ConfigValue* value(const std::string& key);
   bool has(const std::string& key) const;
 
@@ -45,7 +45,7 @@ class Section {
   void wrong(const ConfigValue& value, const std::string& rule, const std::string& fix) const;
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
-  /// To be called when all keys have been asked for: the others are errors.
+  /// To be called after all known keys have been read: any others are errors.
   void reject_unknown_keys() const;
 
  private:

@@ -30,7 +30,7 @@ std::string study_text(const fs::path& file) {
   return base::read_whole_file(file, kLargestStudy_bytes);
 }
 
-/// A section that every study has.
+/// A required section.
 Section needed_section(Section& study, const std::string& key, const std::string& rule,
                        const std::string& example) {
   if (!study.has(key)) {
@@ -51,7 +51,7 @@ void read_heading(Section& section, StudyHeading& heading) {
 
 namespace {
 
-/// Every value of the study by its name, as in "particle.density_kg_m3".
+/// Names of all values of the study, such as "particle.density_kg_m3".
 void add_names(const ConfigValue& table, const std::string& path, std::vector<std::string>& names) {
   for (const ConfigValue& value : table.items) {
     const std::string name = path.empty() ? value.name : path + '.' + value.name;
@@ -60,7 +60,7 @@ void add_names(const ConfigValue& table, const std::string& path, std::vector<st
   }
 }
 
-/// A name that stands for nothing would hide that a value is assumed.
+/// Unknown names are errors: they would hide that a value is assumed.
 void read_assumed(Section& section, const ConfigValue& root, std::vector<std::string>& assumed) {
   const std::string example = "assumed = [\"particle.density_kg_m3\"]";
   const ConfigValue* list = section.value("assumed");
@@ -138,7 +138,7 @@ void read_sections(const ConfigValue& config, Section root, const NamedFiles& fi
   root.reject_unknown_keys();
 }
 
-/// A study of a table of runs has nothing to be simulated.
+/// Rejects a study of a table of runs, which has nothing to simulate.
 void refuse_table(const ConfigValue& config, StudyErrors& errors) {
   const ConfigValue* parameters = config.find(kTableSection);
   if (parameters == nullptr) return;
@@ -163,7 +163,7 @@ Study read_text(const fs::path& file, const std::string& text,
                 const std::vector<std::string>& settings, const NamedFiles& files) {
   StudyErrors errors;
   const ConfigValue config = parse_config(file.string(), text, settings, errors);
-  errors.throw_if_any();  // with a file half read, every other key would be missing
+  errors.throw_if_any();  // in a half-read file, all other keys would be missing
   refuse_table(config, errors);
   Study study;
   study.file = file;

@@ -12,7 +12,7 @@
 namespace repose::dem {
 namespace {
 
-/// Where a line (from 1) begins; the text's end where there is none.
+/// Offset at which a line (from 1) begins; the text's end if there is no such line.
 std::size_t begin_of_line(std::string_view text, int line) {
   std::size_t at = 0;
   for (int k = 1; k < line; ++k) {
@@ -39,7 +39,7 @@ const ConfigValue* table_in(const ConfigValue& config, std::string_view path) {
                           .fix = "change it in the file, with a text editor."});
 }
 
-/// Where the value of a key stands in an inline table of that line; npos: not found.
+/// Offset of a key's value in an inline table on that line; npos: not found.
 std::size_t inline_value_at(std::string_view text, std::size_t line, std::size_t end,
                             const std::string& key, const std::string& shown) {
   const std::string_view table = text.substr(0, end);

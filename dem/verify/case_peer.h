@@ -15,31 +15,31 @@ struct PathPoint {
 };
 using Path = std::vector<PathPoint>;
 
-/// One grain that is about to strike something, or two about to meet, from above and below.
+/// One grain about to strike something, or two about to meet, from above and below.
 using Meeting = std::vector<Grain>;
 
-/// What is seen of a collision at the ends of its steps.
+/// A collision sampled at the ends of its steps.
 struct CollisionSamples {
   double timestep_s = 0;
-  std::vector<double> overlaps_m;  ///< the deepest one; the first and the last are 0
+  std::vector<double> overlaps_m;  ///< the deepest contact's; the first and the last are 0
   std::vector<double> pushes_n;    ///< on grain 0, upwards
 };
 
-/// What happened while grain 0 touched something.
+/// Outcome of the contact of grain 0.
 struct Collision {
   Grain after;
-  Grain struck;  ///< grain 1 afterwards, where there is one
+  Grain struck;  ///< grain 1 afterwards, if there is one
   double deepest_m = 0;
-  double peak_n = 0;  ///< greatest push upwards
-  double pull_n = 0;  ///< greatest pull; 0 when it never pulled
+  double peak_n = 0;  ///< greatest upward force
+  double pull_n = 0;  ///< greatest downward force; 0 if never downward
   double duration_s = 0;
 };
 
 /// Peaks and duration, interpolated between steps.
-/// @pre there is an overlap at the ends of two steps or more
+/// @pre overlap is above 0 at two steps or more
 Collision collision_of(const CollisionSamples& samples, const Grain& after, const Grain& struck);
 
-/// A case that a program has no means for. For people: what it would take.
+/// Thrown if a program cannot run a case; the message states what is lacking.
 class CannotRun : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -55,7 +55,7 @@ class CasePeer {
   CasePeer(CasePeer&&) = delete;
   CasePeer& operator=(CasePeer&&) = delete;
 
-  /// For people: "LIGGGHTS-PUBLIC 3.8.0".
+  /// For display: "LIGGGHTS-PUBLIC 3.8.0".
   virtual std::string title() const = 0;
   /// As Trial::collide_each, with the time step of `setup`.
   /// @throws CannotRun
@@ -65,7 +65,7 @@ class CasePeer {
   /// As Trial::follow, with the time step of `setup`.
   virtual Path follow(const SimulationSetup& setup, const std::vector<Grain>& grains,
                       double duration_s, int every_steps) const = 0;
-  /// For people: which values of a scene it takes others for, and which; empty: none.
+  /// For display: values of a scene that the program replaces, and by which; empty: none.
   virtual std::string changes_to(const SimulationSetup& /*setup*/) const { return {}; }
 };
 

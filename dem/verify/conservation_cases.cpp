@@ -19,8 +19,8 @@ namespace {
 const Material kSteel{
     .name = "steel", .density_kg_m3 = 7850, .young_modulus_pa = 208e9, .poisson_ratio = .3};
 
-/// A ball that strikes a wall, or a ball like itself, at `angle` from the normal; first contact
-/// falls `late` of a step after the start.
+/// A ball that strikes a wall, or an equal ball, at `angle` from the normal; first contact is at
+/// `late` of a step after the start.
 struct Impact {
   static constexpr double kRadius = .005, kSpeed = 2;
   bool on_ball;
@@ -39,14 +39,14 @@ struct Impact {
   }
 };
 
-/// Twice the kinetic energy of a ball by its mass.
+/// Twice the kinetic energy of a ball per mass.
 double energy2_of(const Grain& ball) {
   return ball.velocity.squaredNorm() +
          .4 * Impact::kRadius * Impact::kRadius * ball.spin.squaredNorm();
 }
 
-/// Kinetic energy that appears in an elastic impact at any angle, relative; friction only takes.
-/// A spring of the total slip, S_t(now) x, makes 3 % at nu 0 and mu 3.
+/// Relative kinetic energy created in an elastic impact at any angle; friction can only reduce it.
+/// A spring of the total slip, S_t(now) x, would create 3 % at nu 0 and mu 3.
 void energy_of_oblique_impacts(Trial& trial) {
   constexpr int kPhases = 16;
   for (const bool on_ball : {false, true}) {
@@ -58,14 +58,14 @@ void energy_of_oblique_impacts(Trial& trial) {
       if (!on_ball) setup.walls = {tilted_plane(0)};
       std::vector<Meeting> meetings;
       for (int k = 0; k < 90 + kPhases; ++k) {
-        const int angle_deg = std::max(0, k - kPhases);  // 0: at every phase
+        const int angle_deg = std::max(0, k - kPhases);  // 0 degrees at every phase
         const Impact impact{on_ball, angle_deg * kDegree, k % kPhases / double{kPhases}};
         meetings.push_back(impact.meeting(Impact::kSpeed, trial.timestep_s(setup, Impact::kSpeed)));
       }
       double most = 0;
       for (const Collision& hit :
            trial.collide_each(setup, meetings, Impact::kSpeed, Impact::kRadius)) {
-        // Of a ball's mass; a wall has nothing.
+        // Per mass of a ball; a wall has no energy.
         const double energy2 = energy2_of(hit.after) + (on_ball ? energy2_of(hit.struck) : 0);
         most = std::max(most, energy2 / (Impact::kSpeed * Impact::kSpeed) - 1);
       }
@@ -76,7 +76,7 @@ void energy_of_oblique_impacts(Trial& trial) {
   }
 }
 
-/// Wherever in a step the contact begins, and in slower impacts than the step is meant for.
+/// For contacts that begin anywhere in a step, and slower impacts than the step is meant for.
 void restitution_at_any_step(Trial& trial) {
   for (const bool on_ball : {false, true}) {
     double worst = 0;
@@ -126,7 +126,7 @@ Vector angular_momentum_of(const Simulation& simulation) {
   return sum;
 }
 
-/// Blocks that fly together from all sides, each turned and spinning in its own way.
+/// Blocks that collide from all sides, each with its own orientation and spin.
 void momentum_of_many_clumps(Trial& trial) {
   const Material wood{
       .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e7, .poisson_ratio = .3};
@@ -182,7 +182,7 @@ std::vector<VerifyCase> conservation_cases() {
 
 namespace {
 
-/// Of equal balls, as far from each other as in a large tile.
+/// A bed of equal balls in a large tile.
 Wall bed_of(const std::vector<Vector>& centres) {
   SphereBed bed{.spheres = {}, .tile = 100 * kBallRadius_m};
   for (const Vector& centre : centres) {
@@ -194,8 +194,8 @@ Wall bed_of(const std::vector<Vector>& centres) {
   return wall;
 }
 
-/// A ball strikes a fixed one like it head-on: Hertz's impact with half the radius and all of the
-/// ball's mass.
+/// A ball strikes an equal, fixed one head-on: Hertz impact with half the radius and the ball's
+/// full mass.
 void ball_on_fixed_ball(Trial& trial) {
   constexpr double kSpeed = .1;
   for (const double restitution : {1.0, .5}) {
@@ -220,9 +220,9 @@ void ball_on_fixed_ball(Trial& trial) {
   }
 }
 
-/// A rough ball in the hollow of three balls that touch leaves it between two of them once its
-/// weight points over the line of their centres: tan(tilt) = (d / 2 sqrt 3) / (d sqrt(2 / 3)), so
-/// that sin(tilt) = 1 / 3, whatever the friction.
+/// A rough ball in the hollow of three touching balls leaves it between two of them once its weight
+/// vector passes the line of their centres: tan(tilt) = (d / 2 sqrt 3) / (d sqrt(2 / 3)), so that
+/// sin(tilt) = 1 / 3, whatever the friction.
 void ball_leaves_its_hollow(Trial& trial) {
   constexpr double kRate = 2 * kDegree;  // per second
   constexpr double kStart = 18 * kDegree;
@@ -248,7 +248,7 @@ void ball_leaves_its_hollow(Trial& trial) {
       return simulation.wall(0).pose.orientation.conjugate() * simulation.grain(0).position;
     };
     const double rest = place().x();
-    // From a hundredth of its radius on it is fast: the tilt grows by .2 degrees until then.
+    // After a hundredth of its radius it moves fast; the tilt grows by .2 degrees until then.
     while (place().x() - rest < .01 * kBallRadius_m && simulation.time_s() < 3) {
       simulation.advance(20);
     }
@@ -279,8 +279,8 @@ constexpr double kClumpTolerance = .005;
 /// A block that lands flat on the spheres in its four lower corners.
 ClumpShape flat_block() { return block_shape({.02, .02, kHalfHeight}, kCornerRadius); }
 
-/// The same with more spheres beneath, each ring `step_m` higher than the one before: they begin to
-/// touch one after another.
+/// The same with more spheres beneath, each group `step_m` higher than the previous one, so that
+/// they make contact one after another.
 ClumpShape block_of_rings(double step_m) {
   ClumpShape shape = flat_block();
   const auto add = [&](double x, double y, int ring) {
@@ -315,7 +315,7 @@ Collision landing_of(Trial& trial, const ClumpShape& shape, double restitution,
   return trial.collide(std::move(setup), blocks, kLandingSpeed, kCornerRadius);
 }
 
-/// What a clump that lands flat keeps of its speed, against what it should.
+/// Compares the restitution of a clump that lands flat with the expected one.
 void expect_restitution(Trial& trial, const ClumpShape& shape, DampingModel damping,
                         const std::function<double(double)>& restitution_for, bool on_block) {
   double pull = 0;
@@ -346,7 +346,7 @@ VerifyCase landing(const std::string& name, const ClumpShape& shape, DampingMode
 std::vector<VerifyCase> clump_cases() {
   constexpr int kContacts = 4;
   const auto as_set = [](double e) { return e; };
-  // Equal contacts of the whole mass each: one contact with sqrt(N) times the factor.
+  // Equal contacts, each with the whole mass, act as one contact with sqrt(N) times the factor.
   const auto of_factors = [](double e) {
     return restitution_of(std::sqrt(kContacts) * damping_factor(e));
   };

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kChungOoiHertz = "Chung & Ooi (2011); Hertz";
 
-/// Overlap, force and duration are those of a Hertz contact, within .5 %.
+/// Overlap, force and duration of a Hertz contact, to agree within .5 %.
 struct HertzImpact {
   double deepest_um;
   double peak_kn;
@@ -60,7 +60,7 @@ VerifyCase rigid_wall(const Material& material, const HertzImpact& expected) {
           }};
 }
 
-/// T3: what restitution goes in comes out.
+/// T3: the restitution measured is the one set.
 VerifyCase restitution(const Material& material) {
   return {.name = "T3 restitution, " + material.name,
           .source = "Chung & Ooi (2011)",
@@ -79,8 +79,7 @@ VerifyCase restitution(const Material& material) {
           }};
 }
 
-/// e0 (v / v0)^-alpha comes out where it is asked for: over a hundredfold of speeds, from where it
-/// is held at .99 on.
+/// e0 (v / v0)^-alpha is reproduced over a hundredfold range of speeds, up to the limit of .99.
 VerifyCase restitution_by_speed(double restitution, double exponent) {
   return {.name = fmt::format("restitution by speed, {:.1f} at 3 m/s, exponent {:.2f}", restitution,
                               exponent),
@@ -101,8 +100,8 @@ VerifyCase restitution_by_speed(double restitution, double exponent) {
           }};
 }
 
-/// Heights of the centre of mass after each bounce: h_k = (h_0 - r) e^(2k) + r, when the time in
-/// contact is short against the flight.
+/// Heights of the centre of mass after each bounce: h_k = (h_0 - r) e^(2k) + r, if the contact is
+/// short compared with the flight.
 void bounce(Trial& trial) {
   constexpr double kRadius = .1;
   constexpr double kFall = .4;
@@ -115,7 +114,7 @@ void bounce(Trial& trial) {
   setup.gravity.z() = -kStandardGravity_m_s2;
   constexpr int kBounces = 5;
   const double fall_s = std::sqrt(2 * kFall / kStandardGravity_m_s2);
-  double duration_s = fall_s;  // to the top after the last bounce, and a little more
+  double duration_s = fall_s;  // to the top after the last bounce, with a margin
   for (int k = 1; k <= kBounces; ++k) {
     duration_s += (k < kBounces ? 2 : 1.1) * std::pow(kRestitution, k) * fall_s;
   }
@@ -129,7 +128,7 @@ void bounce(Trial& trial) {
   tops.resize(kBounces, std::nan(""));
   for (int k = 1; k <= kBounces; ++k) {
     const double rise = kFall * std::pow(kRestitution, 2 * k);
-    // As if restitution came out wrong by .005.
+    // Corresponds to an error of .005 in restitution.
     trial.expect(fmt::format("height after bounce {}, m", k), rise + kRadius,
                  tops[static_cast<std::size_t>(k - 1)], rise * 2 * k * .005 / kRestitution);
   }
@@ -159,9 +158,9 @@ std::vector<VerifyCase> impact_cases() {
 
 namespace {
 
-// From 20 degrees on the readings scatter by 1 degree, .03 and 8 %. Nearer to the normal the
+// From 20 degrees on the readings scatter by 1 degree, .03 and 8 %. Closer to the normal the
 // contact only slips at its rim (Mindlin & Deresiewicz 1953), which the engine's no-slip spring
-// leaves out: there it returns too much, and the tolerance is the size of that known error.
+// neglects: it then returns too much, and the tolerance equals that known error.
 struct Shot {
   double impact_deg;
   double value;
@@ -230,15 +229,15 @@ namespace {
 
 constexpr const char* kChungOoi = "Chung & Ooi (2011)";
 
-/// An impact that slides all the time: the tangential impulse is mu times the normal one.
+/// An impact that slides throughout: the tangential impulse is mu times the normal one.
 struct Sliding {
   double restitution;
   double friction;
   double normal_speed;
 
-  /// Tangential speed that is lost.
+  /// Loss of tangential speed.
   double speed_change() const { return friction * (1 + restitution) * normal_speed; }
-  /// Spin times radius that comes of it: the moment of inertia of a sphere is 2/5 m r^2.
+  /// Resulting spin times radius: the moment of inertia of a sphere is 2/5 m r^2.
   double spin_change() const { return 2.5 * speed_change(); }
 };
 
@@ -261,10 +260,10 @@ void slides_over_glass(Trial& trial) {
 void sticks_to_glass(Trial& trial) {
   struct Point {
     double angle_deg, tangential_restitution, spin_rad_s;
-    double model;  ///< share by which the spring of the paper's codes differs, see below
+    double model;  ///< relative deviation due to the spring of the paper's codes, see below
   };
   constexpr double kReading = .025;
-  // Those codes stretch one spring, F = S_t(now) x. Integrated on its own, it gives .698 and 204
+  // Those codes use a single spring, F = S_t(now) x. Integrated separately, it gives .698 and 204
   // rad/s at 10 deg, this engine's .711 and 196; from 15 deg on they agree within 1 %.
   for (const Point& point : {Point{10, .687, 213, .05}, Point{15, .624, 378, 0},
                              Point{20, .616, 511, 0}, Point{25, .634, 599, 0}}) {
@@ -300,7 +299,7 @@ constexpr double kAlloyRadius = .1;
 constexpr Sliding kSpinning{.restitution = .5, .friction = .4, .normal_speed = .2};
 constexpr PairCoefficients kSpinningPair{.restitution = .5, .sliding_friction = .4};
 
-/// What is left of a spin about y when it slides on what is below, and the speed that it gave.
+/// Remaining spin about y after sliding contact, and the tangential speed that it gave.
 void expect_spinning(Trial& trial, double spin, const Grain& after) {
   constexpr double kTolerance = .03;
   const double speed = kSpinning.speed_change();
@@ -321,7 +320,7 @@ void spinning_on_wall(Trial& trial) {
   }
 }
 
-/// T7: two spheres whose surfaces move alike where they meet.
+/// T7: two spheres whose surfaces move equally at the contact.
 void opposite_spins(Trial& trial) {
   constexpr double kSpeed = .2;
   for (const double spin : {4.0, 16.0}) {
@@ -341,7 +340,7 @@ void opposite_spins(Trial& trial) {
   }
 }
 
-/// T8: as T6, with a great heavy stiff sphere for the wall.
+/// T8: as T6, with a large, heavy, stiff sphere instead of the wall.
 void spinning_on_great_sphere(Trial& trial) {
   constexpr double kGreatRadius = .5;
   Material great = kAlloy;

@@ -5,7 +5,7 @@
 namespace repose::dem {
 
 // The impacts of Kharaz, Gorham and Salman (2001), Powder Technology 120, which Chung & Ooi (2011)
-// took for their T4: an Al2O3 ball of 5 mm on glass.
+// used for their T4: an Al2O3 ball of 5 mm on glass.
 inline constexpr double kKharazRadius_m = .0025;
 inline constexpr double kKharazSpeed_m_s = 3.9;
 inline constexpr double kKharazRestitution = .98;

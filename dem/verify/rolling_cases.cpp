@@ -11,7 +11,7 @@ namespace repose::dem {
 
 namespace {
 
-/// A rolling ball with resistance mu_r on a plane, let go with some speed down the slope.
+/// A rolling ball with resistance mu_r on a plane, released with some speed down the slope.
 struct RollingBall {
   RollingModel model = RollingModel::none;
   double rolling_friction = 0;
@@ -29,7 +29,7 @@ struct RollingBall {
     return trial.follow(setup, {ball}, .1, duration_s, every_steps);
   }
 
-  /// By rigid body mechanics; what it slows down by is negative.
+  /// From rigid body mechanics; negative if it slows down.
   double acceleration() const {
     return 5.0 / 7 * kStandardGravity_m_s2 * (std::sin(tilt) - rolling_friction * std::cos(tilt));
   }
@@ -39,7 +39,7 @@ double speed_of(const PathPoint& point, double tilt) {
   return point.grain.velocity.dot(downhill(tilt));
 }
 
-/// The first point from a time on; the last one if there is none.
+/// The first point at or after a time; the last one if there is none.
 const PathPoint& point_at(const Path& path, double time_s) {
   const auto found = std::find_if(path.begin(), path.end(), [time_s](const PathPoint& point) {
     return point.time_s >= time_s;
@@ -64,15 +64,14 @@ void decays_on_plane(Trial& trial, RollingModel model) {
   }
 }
 
-/// Down an incline of length S, then over a flat: the energy balance gives
-/// L = S (sin(tilt) - mu_r cos(tilt)) / mu_r when nothing is lost at the foot. A real corner costs
-/// energy (the ball strikes the flat), so the flat is a second run that begins with the speed and
-/// spin of the first one's end.
+/// Down an incline of length S, then along a flat: the energy balance gives L = S (sin(tilt) - mu_r
+/// cos(tilt)) / mu_r if nothing is lost at the foot. A real corner costs energy (the ball strikes
+/// the flat), so the flat is a second run that starts with the final speed and spin of the first.
 void incline_then_flat(Trial& trial, RollingModel model) {
   constexpr double kTilt = 20 * kDegree;
   constexpr double kLength = .15;
-  // The elastic-plastic damper is not held to the limit of the spring, and takes a fast ball some
-  // energy in the moment in which the spring winds up: .6 %.
+  // The elastic-plastic damper is not limited like the spring, and takes some energy from a fast
+  // ball while the spring winds up: .6 %.
   const double tolerance = model == RollingModel::elastic_plastic ? .01 : .002;
   for (const double friction : {.01, .02, .04, .11}) {
     const RollingBall incline{.model = model, .rolling_friction = friction, .tilt = kTilt};
@@ -83,7 +82,7 @@ void incline_then_flat(Trial& trial, RollingModel model) {
     const auto at_foot = std::find_if(down.begin(), down.end() - 1, [&](const PathPoint& point) {
       return run_length(point) >= kLength;
     });
-    const double speed =  // at the foot; the last step went past it
+    const double speed =  // at the foot, which the last step has passed
         std::sqrt(at_foot->grain.velocity.squaredNorm() * kLength / run_length(*at_foot));
     const RollingBall flat{.model = model, .rolling_friction = friction, .speed = speed};
     const Path out = flat.path(trial, -1.1 * speed / flat.acceleration(), 100);
@@ -96,13 +95,12 @@ void incline_then_flat(Trial& trial, RollingModel model) {
   }
 }
 
-/// Down an incline, round its foot and along a flat, as at a bench: with d = R tan(tilt / 2), from
-/// where the ball touches both planes, L = r^2 (S - d) (sin(tilt) - mu_r cos(tilt)) / mu_r + d. At
-/// the foot it loses what points into the flat, and keeps
-/// r = (5 cos(tilt) + 2) / 7 - 5/7 mu_r sin(tilt) of its speed, by its angular momentum about the
-/// point at which it strikes the flat (calibrate/THEORY.md, "The foot of the incline"). Not for the
-/// elastic-plastic model, whose damper takes more than that where the ball strikes: it stops 2 to
-/// 5 % short.
+/// Down an incline, round its foot and along a flat, as on the bench: with d = R tan(tilt / 2),
+/// from where the ball touches both planes, L = r^2 (S - d) (sin(tilt) - mu_r cos(tilt)) / mu_r +
+/// d. At the foot it loses the velocity into the flat, and keeps r = (5 cos(tilt) + 2) / 7 - 5/7
+/// mu_r sin(tilt) of its speed, by conservation of angular momentum about the point at which it
+/// strikes the flat (calibrate/THEORY.md, "The foot of the incline"). Not for the elastic-plastic
+/// model, whose damper takes more than that in the impact: the ball stops 2 to 5 % short.
 void rolls_round_foot(Trial& trial, RollingModel model) {
   constexpr double kTilt = 20 * kDegree;
   constexpr double kLength = .15;
@@ -132,8 +130,8 @@ void rolls_round_foot(Trial& trial, RollingModel model) {
   }
 }
 
-/// A ball that is set down on an incline stays if tan(tilt) < mu_r, and else rolls off with
-/// 5/7 g (sin(tilt) - mu_r cos(tilt)).
+/// A ball set down on an incline stays if tan(tilt) < mu_r, otherwise rolls off with 5/7 g
+/// (sin(tilt) - mu_r cos(tilt)).
 void holds_on_incline(Trial& trial, RollingModel model) {
   constexpr double kFriction = .1;
   for (const double fraction : {.5, .95, 1.2}) {
@@ -150,7 +148,7 @@ void holds_on_incline(Trial& trial, RollingModel model) {
   }
 }
 
-/// A ball rolls out on a flat and then lies still.
+/// A ball rolls to a stop on a flat and then lies still.
 void comes_to_rest(Trial& trial, RollingModel model) {
   constexpr double kSpeed = .1;
   const RollingBall ball{.model = model, .rolling_friction = .1, .speed = kSpeed};
@@ -195,12 +193,12 @@ std::vector<VerifyCase> rolling_cases() {
 
 namespace {
 
-/// How a free body with principal moments A < B < C tumbles.
+/// Tumbling period of a free body with principal moments A < B < C.
 ///
 /// Source: Landau & Lifshitz, Mechanics, sec. 37: with M^2 > 2 E B
 ///   period T = 4 K(k) sqrt(A B C / ((C - B)(M^2 - 2 E A))),
 ///   k^2 = (B - A)(2 E C - M^2) / ((C - B)(M^2 - 2 E A));
-/// with M^2 < 2 E B, A and C change places.
+/// with M^2 < 2 E B, A and C are exchanged.
 double tumbling_period(Vector moments, const Vector& spin) {
   const double energy2 = moments.dot(spin.cwiseAbs2());
   const double momentum2 = moments.cwiseProduct(spin).squaredNorm();
@@ -213,7 +211,7 @@ double tumbling_period(Vector moments, const Vector& spin) {
   return 4 * boost::math::ellint_1(std::sqrt(k2)) * std::sqrt(a * b * c / rate);
 }
 
-/// A block thrown spinning about its middle axis turns over again and again (Dzhanibekov).
+/// A block thrown spinning about its middle axis flips repeatedly (Dzhanibekov effect).
 void tumbling(Trial& trial) {
   const Material wood{
       .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e8, .poisson_ratio = .3};
@@ -262,7 +260,7 @@ std::vector<VerifyCase> rotation_cases() {
 
 namespace {
 
-constexpr double kLowRestitution = .5;  // damps what the start stirs up
+constexpr double kLowRestitution = .5;  // damps the disturbance at the start
 
 /// A sphere set down sliding: slip ends after 2 u0 / (7 mu g), with 5/7 of the speed.
 void slip_to_roll(Trial& trial) {
@@ -293,7 +291,7 @@ void slip_to_roll(Trial& trial) {
   }
 }
 
-/// A sphere let go on an incline rolls if tan(tilt) <= 3.5 mu, else it slides as well.
+/// A sphere released on an incline rolls if tan(tilt) <= 3.5 mu; otherwise it also slides.
 void sphere_on_incline(Trial& trial) {
   constexpr double kTilt = 20 * kDegree;
   constexpr double kTime = .1;
@@ -308,15 +306,15 @@ void sphere_on_incline(Trial& trial) {
             ? 5.0 / 7 * kStandardGravity_m_s2 * std::sin(kTilt)
             : kStandardGravity_m_s2 * (std::sin(kTilt) - friction * std::cos(kTilt));
     trial.expect(fmt::format("acceleration at mu {:.2f}, m/s2", friction), expected,
-                 // The springs stretch first: the speed is counted from half-time on.
+                 // The springs stretch first, so only the second half counts.
                  acceleration(path, kTilt, kTime, 2 * kTime), .002 * expected);
   }
 }
 
-/// A flat block on a plate that is tilted slowly sets off at atan(mu).
+/// A flat block on a slowly tilted plate starts to slide at atan(mu).
 void block_on_tilting_plate(Trial& trial) {
   constexpr double kRate = 1 * kDegree;    // per second
-  constexpr double kStart = .5 * kDegree;  // short of atan(mu)
+  constexpr double kStart = .5 * kDegree;  // below atan(mu)
   constexpr double kMoved = 1e-6;
   const Material soft{
       .name = "soft", .density_kg_m3 = 1000, .young_modulus_pa = 5e7, .poisson_ratio = .3};

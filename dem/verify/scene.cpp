@@ -76,7 +76,7 @@ void Trial::expect(const std::string& quantity, double expected, double measured
 
 namespace {
 
-/// Top of the parabola through three equally spaced samples around the greatest.
+/// Maximum of the parabola through three equally spaced samples around the greatest.
 double peak_of(const std::vector<double>& samples) {
   const auto top = std::max_element(samples.begin(), samples.end());
   if (top == samples.begin() || top + 1 == samples.end()) return *top;
@@ -142,7 +142,7 @@ Vector downhill(double tilt_rad) { return {std::cos(tilt_rad), 0, -std::sin(tilt
 
 Collision collision_of(const CollisionSamples& samples, const Grain& after, const Grain& struck) {
   const std::vector<double>& overlaps = samples.overlaps_m;
-  // The first and the last overlap change as fast as those next to them.
+  // The first and last overlaps are assumed to change as fast as their neighbours.
   const auto first = static_cast<std::size_t>(
       std::find_if(overlaps.begin(), overlaps.end(), [](double overlap) { return overlap > 0; }) -
       overlaps.begin());

@@ -21,16 +21,16 @@ struct VerifyCase {
   std::function<void(Trial&)> run;
 };
 
-/// One run of a case: at one fraction of the accepted time step, of our engine or of another
-/// program. Collects what comes out.
+/// One run of a case: at one fraction of the accepted time step, in our engine or another program.
+/// Collects the results.
 class Trial {
  public:
-  /// `peer`: the other program; none: our engine.
+  /// `peer`: the other program; null: our engine.
   Trial(const VerifyCase& which, double timestep_fraction, const CasePeer* peer = nullptr);
 
-  /// Collisions, each by itself, in steps that are this trial's share of the longest that is
-  /// accepted for impacts at up to `speed_m_s`; as collide() below.
-  /// @throws CannotRun  the other program cannot make them; so do all others.
+  /// Independent collisions, with this trial's share of the longest time step accepted for impacts
+  /// at up to `speed_m_s`; as collide() below.
+  /// @throws CannotRun  the other program cannot run them; likewise for the functions below.
   std::vector<Collision> collide_each(SimulationSetup setup, const std::vector<Meeting>& meetings,
                                       double speed_m_s, double radius);
   Collision collide(SimulationSetup setup, const Meeting& meeting, double speed_m_s,
@@ -38,19 +38,19 @@ class Trial {
     return collide_each(std::move(setup), {meeting}, speed_m_s, radius).front();
   }
 
-  /// Grain 0 from its start for so long.
+  /// Path of grain 0 from its start, for `duration_s`.
   Path follow(SimulationSetup setup, const std::vector<Grain>& grains, double speed_m_s,
               double duration_s, int every_steps = 1);
 
-  /// The simulation of a setup, for cases that do more with it than to look on: only ours.
+  /// The simulation of a setup, for cases that intervene in it: our engine only.
   Simulation simulate(SimulationSetup setup, double speed_m_s);
 
-  /// Holds when `measured` is no further than `tolerance` from `expected`.
+  /// Adds a result, which holds if `measured` is within `tolerance` of `expected`.
   void expect(const std::string& quantity, double expected, double measured, double tolerance);
 
   const std::vector<CaseResult>& results() const { return results_; }
 
-  /// What the steps of these are.
+  /// Time step of the functions above, s.
   double timestep_s(const SimulationSetup& setup, double speed_m_s) const;
 
  private:
@@ -60,7 +60,7 @@ class Trial {
   std::string name_;
   std::string source_;
   double timestep_share_;
-  double timestep_s_ = 0;  ///< of the latest simulation
+  double timestep_s_ = 0;  ///< of the latest run
   std::vector<CaseResult> results_;
 };
 
@@ -90,27 +90,27 @@ SimulationSetup scene_of(const ClumpShape& shape, const Material& grain, const M
                          DampingModel damping = DampingModel::per_contact);
 
 inline constexpr double kBallRadius_m = .01;
-/// The ball of the cases about sliding and rolling, soft so that steps are long, on its own kind.
+/// The ball of the sliding and rolling cases, soft to allow long steps, with walls of its own
+/// material.
 SimulationSetup ball_scene(const PairCoefficients& pair, RollingModel rolling = RollingModel::none);
 
-/// A block with a sphere in each corner that just touches its three faces; mass and inertia of the
-/// block.
+/// A block with a sphere in each corner touching its three faces; mass and inertia are the block's.
 ClumpShape block_shape(const Vector& half_size, double sphere_radius);
 
-/// Material 1; falls towards +x by `tilt`.
+/// Material 1; descends towards +x at angle `tilt_rad`.
 Wall tilted_plane(double tilt_rad);
 
-/// A sphere that rests on tilted_plane: overlapping by what its weight asks for, at the origin.
+/// A sphere resting on tilted_plane at the origin, with the overlap that its weight causes.
 Grain resting_sphere(const SimulationSetup& setup, double tilt_rad);
 
-/// Down the slope of tilted_plane.
+/// Unit vector down the slope of tilted_plane.
 Vector downhill(double tilt_rad);
 
-/// Follows a collision until grain 0, which comes near from above, touches nothing any more.
-/// Without gravity. `radius` is that of the smaller sphere.
+/// Follows a collision until grain 0, which approaches from above, has separated. Without gravity.
+/// `radius` is that of the smaller sphere.
 Collision collide(Simulation& simulation, double radius);
 
-/// Throws a sphere at a flat wall, from where it all but touches: from (0, 0, r) at the wall z = 0.
+/// Throws a sphere at the wall z = 0, from the point of first contact, (0, 0, r).
 Collision strike_wall(Trial& trial, SimulationSetup setup, const Vector& velocity,
                       const Vector& spin = Vector::Zero());
 

@@ -29,7 +29,7 @@ std::vector<CaseResult> run(const VerifyCase& which, const CasePeer* peer = null
   return results;
 }
 
-/// Passes scenes on, and notes what the peer takes otherwise in them.
+/// Forwards scenes to the peer, and records the values that it replaces.
 class NotedPeer : public CasePeer {
  public:
   NotedPeer(const CasePeer& peer, std::vector<std::string>& changes)

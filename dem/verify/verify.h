@@ -21,33 +21,32 @@ struct CaseResult {
   bool holds = false;
 };
 
-/// What another program made of a case.
+/// Results of a case in another program.
 struct PeerCase {
   std::string name;
-  /// As run_case() has them, in the same order; of other programs, whether they hold is no verdict
-  /// on them: the tolerances are those of our own engine.
+  /// As from run_case(), in the same order; whether they hold is not a verdict on the other
+  /// program, as the tolerances are for our engine.
   std::vector<CaseResult> results = {};
-  std::string cannot = {};                ///< or why it cannot run it
-  std::vector<std::string> changes = {};  ///< values that it took others for, each once
+  std::string cannot = {};                ///< or why it cannot run the case
+  std::vector<std::string> changes = {};  ///< values that it replaced, each once
 };
 
-/// Hears after each case how many of them are done.
+/// Called after each case with the number of cases done.
 using ProgressCallback = std::function<void(std::size_t done, std::size_t count)>;
 
 /// All cases, in the order of the table.
 std::vector<std::string> case_names();
 
-/// Runs one case at the longest time step that the program accepts, and at half of it; `peer`: in
-/// another program.
+/// Runs one case at the longest accepted time step and at half of it; `peer`: in another program.
 /// @throws base::InputError  there is no case of this name, or the other program failed.
 /// @throws CannotRun  the other program cannot run it.
 std::vector<CaseResult> run_case(const std::string& name, const CasePeer* peer = nullptr);
 
-/// All of them in another program.
+/// Runs all cases in another program.
 /// @throws base::InputError  it failed.
 std::vector<PeerCase> run_cases_in(const CasePeer& peer, const ProgressCallback& progress = {});
 
-/// Runs all of them.
+/// Runs all cases.
 std::vector<CaseResult> run_cases(const ProgressCallback& progress = {});
 
 }  // namespace repose::dem

@@ -12,7 +12,7 @@ namespace repose::dem {
 
 namespace {
 
-/// Of a rectangle (`half` its half sides) about the origin, any number of dimensions.
+/// Nearest point of a box about the origin with half sides `half`, in any number of dimensions.
 template <typename Point>
 struct Nearest {
   double distance;
@@ -24,7 +24,7 @@ Nearest<Point> nearest_on_box(const Point& half, const Point& point) {
   const Point outside = point - point.cwiseMax(-half).cwiseMin(half);
   const double distance = outside.norm();
   if (distance > 0) return {distance, outside / distance};
-  // Within: the nearest face; of equally near ones the first.
+  // Inside: the nearest face; of equally near ones the first.
   const Point depth = half - point.cwiseAbs();
   Eigen::Index axis = 0;
   const double least = depth.minCoeff(&axis);
@@ -231,7 +231,7 @@ bool MeshFacets::owns(int facet, const TrianglePoint& spot, const Vector& point)
     const TrianglePoint near = nearest(other, point);
     const double there = (point - near.point).squaredNorm();
     const double here = (point - spot.point).squaredNorm();
-    // The shared edge is a part of `other`, so that it cannot be farther away but by rounding.
+    // The shared edge is part of `other`, which cannot be farther away except by rounding.
     const bool is_same_spot = near.part != Part::face && there >= here * (1 - 1e-12);
     if (!is_same_spot || other < facet) return false;
   }

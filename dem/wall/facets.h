@@ -10,21 +10,21 @@
 
 namespace repose::dem {
 
-/// The distance of what is nowhere near.
+/// Distance that stands for "no contact".
 inline constexpr double kEndless = 1e300;
 
-/// The nearest spot of a surface, seen from a point. In the wall's frame.
+/// The point of a surface nearest to a given point. In the wall's frame.
 struct Closest {
   double distance = 0;             ///< m; negative inside a solid
   Vector normal = Vector::Zero();  ///< unit, from the surface to the point
 };
 
-/// Over a level face.
+/// Above a level face.
 inline Closest closest_above(double level, const Vector& point) {
   return {.distance = point.z() - level, .normal = Vector::UnitZ()};
 }
 
-/// Within a tube, whose axis is z, between its ends.
+/// Inside a tube about the z axis, between its ends.
 inline Closest closest_within(double inner_radius, double from_axis, const Vector& point) {
   const double inverse = 1 / from_axis;
   const Vector outwards =
@@ -34,24 +34,24 @@ inline Closest closest_within(double inner_radius, double from_axis, const Vecto
 
 Closest closest(const Plane& plane, const Vector& point);
 Closest closest(const Box& box, const Vector& point);
-/// On the axis of the tube, where all directions are alike, the normal is -x.
+/// On the axis of the tube, where the direction is arbitrary, the normal is -x.
 Closest closest(const Tube& tube, const Vector& point);
 
-/// The spheres of a bed as walls, a facet each, whichever of its images is the nearest.
+/// The spheres of a bed as a wall, one facet per sphere, represented by its nearest periodic image.
 ///
-/// Holds for points within half a tile of a sphere: nobody asks about others, since a tile is much
-/// wider than what touches it. Proved by BedWall.* in tests/dem/bed_wall_test.cpp.
+/// Valid for points within half a tile of a sphere; others never occur, since a tile is much wider
+/// than what touches it. Proved by BedWall.* in tests/dem/bed_wall_test.cpp.
 class BedFacets {
  public:
-  /// Throws base::InputError for a bed without spheres, with one without a radius or wider
-  /// than its tile.
+  /// Throws base::InputError for a bed without spheres, or with a sphere whose radius is not above
+  /// 0 or not below a quarter of the tile.
   explicit BedFacets(const SphereBed& bed);
 
-  /// Spheres within `distance` of a point, in rising order.
+  /// Spheres within `distance` of a point, ascending.
   void near(const Vector& point, double distance, std::vector<int>& facets) const;
 
-  /// The nearest point of one sphere; a distance without end where the bed has ended. In the frame
-  /// of the bed.
+  /// The nearest point of one sphere; kEndless away beyond the ends of the bed. In the frame of the
+  /// bed.
   Closest closest(int facet, const Vector& point) const;
 
   double curvature(int facet) const { return 1 / sphere(facet).radius; }
@@ -76,35 +76,36 @@ class BedFacets {
   std::vector<std::vector<int>> spheres_in_;
 };
 
-/// The triangles of a mesh as walls, each edge and corner of them just once.
+/// The triangles of a mesh as a wall, with each edge and corner counted only once.
 ///
-/// A sphere near a shared edge is near both its triangles at the same point. The contact then
-/// belongs to the edge's triangle of the lowest number, and only when neither triangle is nearer by
-/// its face; likewise at corners. A sphere in a fold touches two faces: those are two contacts.
-/// Proved by MeshWall.* in tests/dem/mesh_wall_test.cpp.
+/// A sphere near a shared edge is nearest to both triangles at the same point. The contact then
+/// belongs to the lowest-numbered of them, and only if neither is nearer with its face; likewise at
+/// corners. A sphere in a fold touches two faces: those are two contacts. Proved by MeshWall.* in
+/// tests/dem/mesh_wall_test.cpp.
 class MeshFacets {
  public:
-  /// Throws base::InputError for a mesh without triangles, or with one without area.
+  /// Throws base::InputError for a mesh without triangles or with a degenerate one.
   explicit MeshFacets(const Mesh& mesh);
   ~MeshFacets() = default;
-  MeshFacets(const MeshFacets&) = delete;  // the tree refers to the mesh beside it
+  MeshFacets(const MeshFacets&) = delete;  // the tree refers to mesh_
   MeshFacets& operator=(const MeshFacets&) = delete;
 
-  /// Triangles within `distance` of a point, in rising order.
+  /// Triangles whose bounds are within `distance` of a point along each axis, ascending.
   void near(const Vector& point, double distance, std::vector<int>& facets) const;
 
-  /// The nearest point of one triangle, when the contact there belongs to it; else a distance
-  /// without end. In the frame of the mesh.
+  /// The nearest point of one triangle if the contact there belongs to it, else kEndless away. In
+  /// the frame of the mesh.
   Closest closest(int facet, const Vector& point) const;
 
  private:
   TrianglePoint nearest(int facet, const Vector& point) const;
   bool owns(int facet, const TrianglePoint& spot, const Vector& point) const;
 
-  Mesh mesh_;  ///< corners at the same place are one
+  Mesh mesh_;  ///< coincident corners are merged
   TriangleTree tree_;
-  std::vector<int> corner_start_;      ///< one more than corners: where each one's triangles start
-  std::vector<int> corner_triangles_;  ///< rising
+  std::vector<int>
+      corner_start_;  ///< one more entry than corners: where each one's triangles start
+  std::vector<int> corner_triangles_;  ///< ascending
 };
 
 }  // namespace repose::dem

@@ -14,7 +14,7 @@ struct Pose {
   Quaternion orientation = Quaternion::Identity();
 };
 
-/// z = 0 of the wall's frame, solid below, without end.
+/// The plane z = 0 of the wall's frame, solid below, infinite.
 struct Plane {};
 
 /// A solid box, centred on the origin of the wall's frame.
@@ -29,7 +29,7 @@ struct Tube {
   double height = 0;        ///< m
 };
 
-/// Triangles of any kind, touched from both sides.
+/// Any triangles, touched from both sides.
 struct MeshSurface {
   Mesh mesh;
 };
@@ -39,11 +39,11 @@ struct FixedSphere {
   double radius = 0;               ///< m
 };
 
-/// Spheres fixed to each other, touched from outside: a tile of them that repeats itself without
-/// end along x and y of the wall's frame, as far as `from_x` and `to_x` allow.
+/// Spheres fixed to each other, touched from outside: a tile repeated endlessly along x and y of
+/// the wall's frame, within `from_x` and `to_x`.
 struct SphereBed {
   std::vector<FixedSphere> spheres;
-  double tile = 0;  ///< m, both ways; much wider than what touches it
+  double tile = 0;  ///< m, along x and y; much wider than what touches it
   /// Spheres whose centres lie outside are left out, m.
   double from_x = -1e9;
   double to_x = 1e9;
@@ -51,25 +51,25 @@ struct SphereBed {
 
 using WallShape = std::variant<Plane, Box, Tube, MeshSurface, SphereBed>;
 
-/// Moves at a steady rate from `start_s` to `stop_s`, and stands still before and after.
+/// Steady motion from `start_s` to `stop_s`, at rest before and after.
 struct Motion {
   Vector velocity = Vector::Zero();  ///< m/s
   Vector spin = Vector::Zero();      ///< rad/s, about `pivot`
-  Vector pivot = Vector::Zero();     ///< world point that the spin turns about; moves along
+  Vector pivot = Vector::Zero();     ///< world point on the axis of rotation; moves along
   double start_s = 0;
   double stop_s = 1e300;
 };
 
-/// A wall as set up: what it is, where it is at time 0 and how it moves.
+/// A wall as set up: its shape, where it is at time 0 and how it moves.
 struct Wall {
   WallShape shape = Plane{};
   int material = 0;
   Pose pose = {};
-  std::vector<Motion> motions = {};  ///< stretches in time that do not overlap
-  bool is_present = true;            ///< a wall that was taken out keeps its number
+  std::vector<Motion> motions = {};  ///< must not overlap in time
+  bool is_present = true;            ///< a removed wall keeps its number
 };
 
-/// Where a wall is at one time, and how its points move.
+/// Position and motion of a wall at one time.
 struct WallMoment {
   Pose pose;
   Vector velocity = Vector::Zero();  ///< of `pivot`

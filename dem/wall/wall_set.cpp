@@ -71,7 +71,7 @@ double WallSet::greatest_speed(double time_s, const Eigen::AlignedBox3d& within)
     for (const Motion& motion : walls_[k].motions) {
       if (time_s >= motion.stop_s) continue;
       const Vector pivot = motion.pivot + std::max(0.0, time_s - motion.start_s) * motion.velocity;
-      // A convex function of the place: its greatest value is at a corner.
+      // Convex in position: the maximum is at a corner.
       for (int corner = 0; corner < 8; ++corner) {
         const Vector arm =
             within.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - pivot;

@@ -11,14 +11,14 @@
 
 namespace repose::dem {
 
-/// Where a point is against one facet of a wall. World axes.
+/// A point relative to one facet of a wall. World axes.
 struct FacetContact {
   Vector normal = Vector::Zero();  ///< unit, from the wall to the point
-  double distance = 0;             ///< m; without end when another facet has the contact
+  double distance = 0;             ///< m; kEndless if another facet has the contact
   double curvature = 0;            ///< of the facet, 1/m; 0: flat
 };
 
-/// All walls of a simulation, placed for one moment.
+/// All walls of a simulation, positioned at one time.
 class WallSet {
  public:
   explicit WallSet(std::vector<Wall> walls);
@@ -28,30 +28,30 @@ class WallSet {
   const WallMoment& moment(int index) const { return moments_[static_cast<std::size_t>(index)]; }
   bool is_present(int index) const { return wall(index).is_present; }
 
-  /// Whether a sphere can move from one of its facets to the next and still be in touch.
+  /// Whether a sphere can move from one of its facets to the next while staying in contact.
   bool has_facets(int index) const { return meshes_[static_cast<std::size_t>(index)] != nullptr; }
 
   void move_to(double time_s);
-  /// From `time_s` on, the moment that the walls are placed for.
+  /// From `time_s` on, which must be the time the walls are positioned at.
   void set_motions(int wall, std::vector<Motion> motions, double time_s);
   void remove(int wall) { walls_[static_cast<std::size_t>(wall)].is_present = false; }
 
-  /// Greatest speed of any wall's points within a box, now or later as long as its pivots stay,
-  /// m/s.
+  /// Greatest speed of any wall's points within a box, m/s, now or later as long as the pivots
+  /// stay.
   double greatest_speed(double time_s, const Eigen::AlignedBox3d& within) const;
 
-  /// Facets of a wall within `distance` of a point, in rising order. Plain walls are one facet, 0.
+  /// Facets of a wall within `distance` of a point, ascending. Plain walls have one facet, 0.
   void facets_near(int wall, const Vector& point, double distance, std::vector<int>& facets) const;
 
   FacetContact contact(int wall, int facet, const Vector& point) const;
 
-  /// Whether a sphere touches a facet of a wall, and if so where, as contact() has it. Most spheres
-  /// lie over a level face or within an upright tube, where that takes a few comparisons.
+  /// Whether a sphere touches a facet of a wall, and where, as by contact(). Most spheres are above
+  /// a level face or inside an upright tube, where a few comparisons suffice.
   bool touches(int wall, int facet, const Vector& centre, double radius,
                FacetContact& where) const {
     const Clearance& clear = clearances_[static_cast<std::size_t>(wall)];
     const Vector own = centre - clear.position;
-    // A little more, and less: distances are rounded on another way.
+    // Slightly more or less, as contact() rounds distances differently.
     if (own.z() < clear.from || own.z() > clear.to) {
       if (own.z() - clear.to > 1.000000000001 * radius) return false;
       if (own.z() > clear.to && std::abs(own.x()) <= clear.face_x &&
@@ -74,14 +74,14 @@ class WallSet {
   }
 
  private:
-  /// Where nothing of an upright wall is: above `to`, and between both heights within the bore. As
-  /// it is at first, nowhere.
+  /// Where an upright wall has no material: above `to`, and between both heights within the bore.
+  /// Default: nowhere.
   struct Clearance {
     Vector position = Vector::Zero();
     double from = -1e300;
     double to = 1e300;
     double bore = 0;
-    double face_x = -1;  ///< half the sides of the level face at `to`; none: below 0
+    double face_x = -1;  ///< half sides of the level face at `to`; below 0 if none
     double face_y = -1;
   };
 
@@ -96,9 +96,9 @@ class WallSet {
   std::vector<WallMoment> moments_;
   std::vector<Eigen::Matrix3d> axes_;
   std::vector<Clearance> clearances_;
-  std::vector<char> is_turned_;  ///< whether the axes are others than the world's
-  std::vector<char> is_placed_;  ///< for good: it has no motions
-  std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< empty for other walls
+  std::vector<char> is_turned_;  ///< whether the axes differ from the world's
+  std::vector<char> is_placed_;  ///< permanently, as it has no motions
+  std::vector<std::shared_ptr<const MeshFacets>> meshes_;  ///< null for other walls
   std::vector<std::shared_ptr<const BedFacets>> beds_;     ///< likewise
 };
 

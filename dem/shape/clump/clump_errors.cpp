@@ -48,11 +48,11 @@ constexpr int kColumnsAcross = 256;
 constexpr std::size_t kSamples = 20000;
 constexpr double kPercentile = 0.95;
 
-/// Distances with the fraction of both surfaces that each stands for.
+/// Distances, each with the fraction of both surfaces that it represents.
 using Distances = std::vector<std::pair<double, double>>;
 
-/// Distance of a point from the union's surface, below 0 inside. Exact outside. Inside, the way to
-/// the nearest point of a sphere that is not in another one.
+/// Distance of a point from the union's surface, negative inside. Exact outside. Inside, the
+/// distance to the nearest surface point that is not inside another sphere.
 double union_distance(const Vector& point, const std::vector<ClumpSphere>& spheres,
                       const std::vector<WeightedPoint>& outside) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ double inertia_error(const MassProperties& body, const MassProperties& spheres) 
   return (of_spheres - of_body).norm() / of_body.norm();
 }
 
-/// The value below which a fraction of the weights lies.
+/// Weighted percentile.
 double percentile(Distances distances, double fraction) {
   std::sort(distances.begin(), distances.end());
   double passed = 0;

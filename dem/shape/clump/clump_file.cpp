@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kFormat = "repose clump";
 constexpr int kVersion = 1;
 
-/// The errors by their keys: written and read by the same list.
+/// The errors by key, for both writing and reading.
 constexpr std::array<std::pair<const char*, double ClumpErrors::*>, 7> kErrors = {{
     {"volume_error", &ClumpErrors::volume_error},
     {"volume_difference", &ClumpErrors::volume_difference},
@@ -45,18 +45,18 @@ Json vector_json(const Vector& vector) {
   return {number_json(vector.x()), number_json(vector.y()), number_json(vector.z())};
 }
 
-/// Takes values out of a file and notes what is wrong with them instead of stopping.
+/// Takes values from a file and collects errors instead of stopping.
 class Reader {
  public:
   explicit Reader(std::string name) : name_(std::move(name)) {}
 
-  /// The first fifty.
+  /// Keeps the first fifty errors.
   void error(const std::string& where, base::Fault fault) {
     fault.where = name_ + ": " + where;
     if (errors_.size() < kMaxErrors) errors_.push_back(std::move(fault));
   }
 
-  /// The value under a key, null when it is missing or no object holds it.
+  /// The value of a key; null with an error if missing or `object` is not an object.
   const Json& value(const Json& object, const std::string& key) {
     static const Json kNull;
     if (object.is_object() && object.contains(key)) return object[key];
@@ -183,7 +183,7 @@ void read_gyration(const Json& root, Reader& reader, ClumpShape& shape) {
   }
 }
 
-/// Lengths in mm where the file has m are possible spheres, and grains a thousand times too large.
+/// Lengths given in mm instead of m are valid numbers, but give grains a thousand times too large.
 void check_sizes(const ClumpShape& shape, const std::string& name) {
   const double reach = shape.reach_m();
   if (!(2 * reach >= kSmallestGrain_m && reach <= kLargestGrain_m)) {
@@ -194,7 +194,7 @@ void check_sizes(const ClumpShape& shape, const std::string& name) {
              fmt::format("grains are from {:g} to {:g} m long", kSmallestGrain_m, kLargestGrain_m),
          .fix = "the file counts in m; divide lengths in mm by 1000."});
   }
-  // A body may be slender, and longer than its spheres; it is not another body.
+  // The body may be slender and longer than its spheres, but must plausibly be the same body.
   constexpr double kFourThirdsPi = 4.0 / 3 * std::numbers::pi;
   const double ball_m3 = kFourThirdsPi * reach * reach * reach;
   const double moments = shape.gyration_m2.sum() / (reach * reach);

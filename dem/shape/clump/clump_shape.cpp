@@ -37,7 +37,7 @@ namespace {
 /// the ninths above the middle one.
 constexpr std::array<double, 4> kMedians = {.282216, .589456, .967422, 1.593219};
 
-/// By which the medians are multiplied so that the nine of them have the deviation 1.
+/// Factor on the medians that gives the nine of them a standard deviation of 1.
 double stretch() {
   double sum = 0;
   for (const double median : kMedians) sum += 2 * median * median;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kGridAcross = 36;
 
-/// Points that no sphere covers yet, by coordinate: each round of the cover reads all of them for
-/// many candidates.
+/// Points not yet covered by a sphere, by coordinate: each round reads all of them for many
+/// candidates.
 class OpenPoints {
  public:
   explicit OpenPoints(const std::vector<Vector>& points) {
@@ -59,7 +59,7 @@ class OpenPoints {
   std::vector<double> x_, y_, z_;
 };
 
-/// A candidate with the most that it may gain; `round` says how old that knowledge is.
+/// A candidate with an upper bound of its gain, computed in `round`.
 struct Promise {
   double gain = 0;
   std::size_t candidate = 0;
@@ -100,7 +100,7 @@ std::vector<ClumpSphere> inscribed_spheres(const Mesh& mesh, int count) {
       open.take_inside(sphere);
       continue;
     }
-    // Gains only shrink as spheres are added: an old one is still the most it can be.
+    // Gains only shrink as spheres are added, so an old one is still an upper bound.
     best.gain = static_cast<double>(open.inside(sphere));
     best.round = round;
     if (best.gain > 0) promises.push(best);
@@ -115,8 +115,8 @@ std::size_t samples_for(int spheres) {
   return static_cast<std::size_t>(std::clamp(kPerSphere * spheres, kFewest, kMax));
 }
 
-/// Points above every other sample, low and high in turn, with their true distance: in a dent, the
-/// nearest surface may be another part of it.
+/// Points above every other sample, alternately low and high, with their true distance: in a dent,
+/// another part of the surface may be nearer.
 std::vector<SphereFit::Guard> guards_above(const Mesh& mesh,
                                            const std::vector<SurfaceSample>& samples,
                                            double equal_radius) {
@@ -132,8 +132,8 @@ std::vector<SphereFit::Guard> guards_above(const Mesh& mesh,
   return guards;
 }
 
-/// Spheres to begin with, one at least: those inside that are large enough; in a thin body, where
-/// none is, what there is of them, to be enlarged by the fit.
+/// Initial spheres, at least one: the inscribed ones that are large enough; in a thin body without
+/// any, all inscribed ones, to be enlarged by the fit.
 std::vector<ClumpSphere> first_spheres(const Mesh& mesh, int count, double smallest_radius,
                                        const Vector& centroid) {
   const std::vector<ClumpSphere> inside = inscribed_spheres(mesh, count);
@@ -163,7 +163,7 @@ FillReport filled(const Mesh& mesh, int count, double smallest_radius_fraction) 
   return report;
 }
 
-/// The fewest spheres that reach the error: doubled until they do, then halved in between.
+/// The fewest spheres that reach the error, by doubling, then bisection.
 FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_radius_fraction) {
   int too_few = 0, enough = 1;
   FillReport best = filled(mesh, enough, smallest_radius_fraction);
@@ -193,10 +193,11 @@ FillReport fill_to_error(const Mesh& mesh, double volume_error, double smallest_
   return best;
 }
 
-/// Width over thickness that a hundred spheres follow; twice as flat takes four times as many.
+/// Largest width-to-thickness ratio for a hundred spheres; twice the ratio takes four times as
+/// many.
 constexpr double kFlattest = 6.5;
 
-/// What to do when so many spheres are not enough for a surface.
+/// Suggested fix if this many spheres are not enough for a surface.
 std::string fix_for(const Mesh& mesh, std::size_t spheres) {
   Vector extent_m = bounds_of(mesh).sizes();
   std::sort(extent_m.begin(), extent_m.end());
@@ -212,7 +213,7 @@ std::string fix_for(const Mesh& mesh, std::size_t spheres) {
                      base::field("smaller volume error"));
 }
 
-/// The fit of few spheres to a slender body may end in ones that the body could lie in.
+/// Fitting few spheres to a slender body may give spheres larger than the body.
 void check_sizes(const Mesh& mesh, const FillReport& report) {
   const Vector centroid = mass_properties(mesh).centroid;
   double reach = 0;

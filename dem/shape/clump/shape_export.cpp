@@ -46,7 +46,7 @@ aiVector3D library_vector(const Vector& vector) {
           static_cast<ai_real>(vector.z())};
 }
 
-/// What the library's scene owns it deletes itself.
+/// The library's scene deletes what it owns.
 aiMesh* library_mesh(const Mesh& mesh, const char* name, unsigned material, double scale) {
   auto* part = new aiMesh;
   part->mName = aiString(name);

@@ -18,7 +18,7 @@ using Step = Eigen::Vector4d;
 constexpr double kFirstDamping = 1e-2;
 constexpr double kMinDamping = 1e-6;
 constexpr double kLargestDamping = 1e8;
-constexpr double kConverged = 1e-7;  // share of the cost that a step must save
+constexpr double kConverged = 1e-7;  // fraction of the cost that a step must save
 
 struct Normal {
   Block block = Block::Zero();
@@ -67,7 +67,7 @@ SphereFit::SphereFit(const std::vector<SurfaceSample>& samples, const std::vecto
 
 SphereFit::Reading SphereFit::read(const std::vector<ClumpSphere>& spheres) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  constexpr Eigen::Index kChunk = 512;  // points that stay in the fastest memory for all spheres
+  constexpr Eigen::Index kChunk = 512;  // points that stay in the L1 cache for all spheres
   const Eigen::Index count = x_.size();
   Reading reading{.error = Eigen::ArrayXd::Constant(count, kFar),
                   .second_error = Eigen::ArrayXd::Constant(count, kFar),
@@ -141,23 +141,24 @@ namespace {
 constexpr int kFirstIterations = 200;
 constexpr int kTrialIterations = 15;
 constexpr int kFinalIterations = 50;
-constexpr double kPromising = 1.02;  // of the best cost, after the first iterations of a trial
+constexpr double kPromising =
+    1.02;  // relative to the best cost, after the first iterations of a trial
 constexpr double kWorthwhile = 1 - 5e-3;
-constexpr std::size_t kSpared = 4;  // spheres that are tried elsewhere
-constexpr std::size_t kSites = 6;   // places that are tried
+constexpr std::size_t kSpared = 4;  // spheres tried elsewhere
+constexpr std::size_t kSites = 6;   // places tried
 
 int attempts_for(std::size_t spheres) {
   constexpr std::size_t kWork = 5000, kFewest = 30, kMax = 200;
   return static_cast<int>(std::clamp(kWork / spheres, kFewest, kMax));
 }
 
-/// The largest ball inside that touches the surface at sample `at`, as far as the samples tell.
+/// The largest ball inside that touches the surface at sample `at`, estimated from the samples.
 ///
 ///     r = min over the samples q of |p - q|^2 / (2 n.(p - q))
 ///
 /// Source: Ma, Bae & Choi, 3D medial axis point approximation using nearest neighbors and the
-/// normal field, Vis. Comput. 28 (2012) 7-19. Samples closer than `grain` say more of the noise
-/// than of the shape and are left out.
+/// normal field, Vis. Comput. 28 (2012) 7-19. Samples closer than `grain` reflect noise rather than
+/// shape and are ignored.
 ClumpSphere touching_ball(const std::vector<SurfaceSample>& samples, std::size_t at, double grain) {
   const SurfaceSample& touch = samples[at];
   double radius = std::numeric_limits<double>::infinity();
@@ -170,7 +171,7 @@ ClumpSphere touching_ball(const std::vector<SurfaceSample>& samples, std::size_t
   return {touch.point - radius * touch.normal, radius};
 }
 
-/// Indices by ascending value; equal ones in their order.
+/// Indices by ascending value, stable.
 template <typename Value>
 std::vector<std::size_t> ascending(std::size_t count, Value value) {
   std::vector<std::size_t> order(count);
@@ -180,7 +181,7 @@ std::vector<std::size_t> ascending(std::size_t count, Value value) {
   return order;
 }
 
-/// Spheres by how little the cost would grow without them.
+/// Spheres by ascending increase of the cost without them.
 std::vector<std::size_t> by_use(const SphereFit::Reading& reading, std::size_t count) {
   std::vector<double> loss(count, 0);
   for (Eigen::Index i = 0; i < reading.sphere.size(); ++i) {
@@ -191,7 +192,7 @@ std::vector<std::size_t> by_use(const SphereFit::Reading& reading, std::size_t c
   return ascending(count, [&](std::size_t s) { return loss[s]; });
 }
 
-/// Samples farthest outside of the spheres, not two of them close together.
+/// Samples farthest outside the spheres, no two of them close together.
 std::vector<std::size_t> worst_sites(const SphereFit::Reading& reading,
                                      const std::vector<SurfaceSample>& samples, double apart) {
   const std::vector<std::size_t> order = ascending(
@@ -207,14 +208,14 @@ std::vector<std::size_t> worst_sites(const SphereFit::Reading& reading,
   return sites;
 }
 
-/// A typical distance between neighbouring spheres' parts of the surface.
+/// Typical distance between the surface patches of neighbouring spheres.
 double patch_size(const std::vector<SurfaceSample>& samples, std::size_t spheres) {
   Eigen::AlignedBox3d bounds;
   for (const SurfaceSample& sample : samples) bounds.extend(sample.point);
   return bounds.diagonal().norm() / (2 * std::sqrt(static_cast<double>(spheres)));
 }
 
-/// One round: tries each spared sphere in each place. @return whether the spheres became better.
+/// One round: tries each dispensable sphere in each place. @return whether the spheres improved.
 bool relocate_one(const SphereFit& fit, const std::vector<SurfaceSample>& samples,
                   std::vector<ClumpSphere>& spheres, double& cost, int& attempts) {
   const double patch = patch_size(samples, spheres.size());
@@ -239,7 +240,7 @@ bool relocate_one(const SphereFit& fit, const std::vector<SurfaceSample>& sample
   return false;
 }
 
-/// Puts spheres that no sample needs, and those that are still missing, where the error is largest.
+/// Puts spheres that no sample needs, and missing ones, where the error is largest.
 void put_to_use(const SphereFit& fit, const std::vector<SurfaceSample>& samples, std::size_t count,
                 std::vector<ClumpSphere>& spheres) {
   const double patch = patch_size(samples, count);

@@ -136,9 +136,9 @@ std::vector<WeightedPoint> sample_union(std::span<const ClumpSphere> spheres, st
 
 namespace {
 
-/// On which side of the line from corner `i` to corner `j` the point lies, seen along z: never 0,
-/// and for both triangles at an edge the same. A point on the line counts as moved a little to
-/// higher x, and a much smaller step to higher y.
+/// Whether the point is left of the line from corner `i` to corner `j`, seen along z: consistent
+/// for both triangles at an edge. A point on the line counts as shifted slightly to higher x, and
+/// by much less to higher y.
 bool is_left_of(const Mesh& mesh, int i, int j, double x, double y) {
   const bool is_swapped = i > j;
   const Vector& p = mesh.vertices[static_cast<std::size_t>(is_swapped ? j : i)];
@@ -158,7 +158,7 @@ bool is_over(const Mesh& mesh, const std::array<int, 3>& triangle, double x, dou
 double height_at(const Mesh& mesh, const std::array<int, 3>& triangle, double x, double y) {
   const Vector normal = area_normal(mesh, triangle);
   const Vector& a = corner(mesh, triangle, 0);
-  if (normal.z() == 0) return a.z();  // upright, met by rounding only
+  if (normal.z() == 0) return a.z();  // vertical, hit only by rounding
   return a.z() - (normal.x() * (x - a.x()) + normal.y() * (y - a.y())) / normal.z();
 }
 

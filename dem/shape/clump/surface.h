@@ -16,10 +16,10 @@ class SurfaceDistance {
  public:
   explicit SurfaceDistance(const Mesh& mesh);
 
-  /// Below 0 inside. The sign comes from the normal at the nearest point, at corners weighted by
-  /// angle and at edges the sum of both faces'.
-  /// Source: Baerentzen & Aanaes, Signed distance computation using the angle weighted
-  /// pseudonormal, IEEE Trans. Vis. Comput. Graph. 11 (2005) 243-253.
+  /// Negative inside. The sign comes from the normal at the nearest point; corners use the
+  /// angle-weighted normal, edges the sum of both faces' normals. Source: Baerentzen & Aanaes,
+  /// Signed distance computation using the angle weighted pseudonormal, IEEE Trans. Vis. Comput.
+  /// Graph. 11 (2005) 243-253.
   double signed_distance(const Vector& point) const;
 
  private:
@@ -37,7 +37,7 @@ struct SurfaceSample {
   Vector normal = Vector::Zero();  ///< outwards, unit
 };
 
-/// Points spread evenly over a surface, each for the same area; always the same ones.
+/// Points spread evenly over a surface, each representing the same area; deterministic.
 std::vector<SurfaceSample> sample_surface(const Mesh& mesh, std::size_t count);
 
 struct WeightedPoint {
@@ -45,8 +45,7 @@ struct WeightedPoint {
   double area = 0;
 };
 
-/// Points spread evenly over what is to be seen from outside of a union of spheres: about `count`
-/// in all, as many for each area.
+/// About `count` points spread evenly over the exposed surface of a union of spheres.
 std::vector<WeightedPoint> sample_union(std::span<const ClumpSphere> spheres, std::size_t count);
 
 /// The part of a line parallel to z that is inside a body.
@@ -54,24 +53,25 @@ struct Chord {
   double from = 0;
   double to = 0;
 };
-using Chords = std::vector<Chord>;  ///< ascending, apart
+using Chords = std::vector<Chord>;  ///< ascending, disjoint
 
-/// Lines parallel to z on a square grid, each for the same area. Lengths along them are exact.
+/// Lines parallel to z on a square grid, each representing the same area. Lengths along them are
+/// exact.
 class ColumnGrid {
  public:
   /// About `across` columns along the longer of the bounds' x and y sides.
   ColumnGrid(const Eigen::AlignedBox3d& bounds, int across);
 
-  /// For each column, what of it is inside a watertight surface.
+  /// For each column, the part inside a watertight surface.
   std::vector<Chords> of_surface(const Mesh& mesh) const;
-  /// For each column, what of it is inside at least one of the spheres.
+  /// For each column, the part inside at least one of the spheres.
   std::vector<Chords> of_union(std::span<const ClumpSphere> spheres) const;
 
-  /// Volume, centroid and second moments of the body that the chords are cut from.
+  /// Volume, centroid and second moments of the body that the chords belong to.
   MassProperties mass_properties(const std::vector<Chords>& columns) const;
-  /// Volume that is in one of the two bodies only, m^3.
+  /// Volume that is in only one of the two bodies, m^3.
   double mismatch_m3(const std::vector<Chords>& a, const std::vector<Chords>& b) const;
-  /// Points inside the body, one for each cube of the grid's spacing.
+  /// Points inside the body, one per cube of the grid's spacing.
   std::vector<Vector> points_inside(const std::vector<Chords>& columns) const;
 
   double spacing_m() const { return spacing_; }

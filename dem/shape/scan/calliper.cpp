@@ -24,7 +24,7 @@ int ring_corner(int ring, int k) { return 1 + ring * kAroundRing + k % kAroundRi
 void add_corners(const CalliperSizes& sizes, Mesh& mesh) {
   mesh.vertices.emplace_back(-sizes.length_m / 2, 0, 0);
   for (int ring = 0; ring < kRings; ++ring) {
-    // Even steps in angle: close together at the ends, where the surface bends most.
+    // Equal steps in angle: close together at the ends, where the curvature is greatest.
     const double u = -std::cos(std::numbers::pi * (ring + 1) / (kRings + 1));
     const double fraction = 2 * ring + 1 == kRings ? 1 : fraction_of_width(u, sizes.tip_fraction);
     for (int k = 0; k < kAroundRing; ++k) {

@@ -45,9 +45,9 @@ namespace {
 constexpr double kEqualFraction = 1e-6;      // of moments of inertia
 constexpr double kSymmetricFraction = 1e-6;  // of |x^3|'s scale
 
-/// Mean of x^3 along each axis, over the body. In a tetrahedron with one corner in the centroid,
-/// int x^3 = det/120 times the sum of all products of degree 3 of the other corners' x.
-/// Source: as mass_properties; the moment of degree n of a simplex. Proved by
+/// Mean of x^3 along each axis, over the body. In a tetrahedron with one corner at the centroid,
+/// int x^3 = det/120 times the sum of all products of degree 3 of the other corners' x. Source: as
+/// mass_properties; the moment of degree n of a simplex. Proved by
 /// PrincipalFrame.SeesTheSameBodyHoweverTheScanLies.
 Vector third_moments(const Mesh& mesh, const MassProperties& body, const Eigen::Matrix3d& axes) {
   Vector sum = Vector::Zero();
@@ -76,7 +76,8 @@ Vector perpendicular_to(const Vector& axis) {
   return (scan_axis - scan_axis.dot(axis) * axis).normalized();
 }
 
-/// Directions within a plane or a space of equal moments are set by rounding alone: choose them.
+/// Directions within a plane or space of equal moments are determined only by rounding: choose
+/// them.
 void settle_equal_moments(const Vector& moments, Eigen::Matrix3d& axes) {
   const double equal = kEqualFraction * moments[2];
   const bool low_pair = moments[1] - moments[0] <= equal;
@@ -111,7 +112,8 @@ MassProperties mass_properties(const Mesh& mesh) {
     throw base::InputError(
         {.where = "surface", .value = "holds no triangles", .fix = "give a closed surface."});
   }
-  const Vector point = bounds_of(mesh).center();  // near the body: far away, digits would be lost
+  const Vector point =
+      bounds_of(mesh).center();  // near the body, as precision would be lost far away
   double volume = 0;
   Vector first = Vector::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();

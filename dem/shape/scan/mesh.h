@@ -11,7 +11,7 @@
 
 namespace repose::dem {
 
-/// A surface of triangles, counter-clockwise seen from outside. Metres.
+/// A triangulated surface, counter-clockwise seen from outside. Metres.
 struct Mesh {
   std::vector<Vector> vertices;
   std::vector<std::array<int, 3>> triangles;
@@ -26,10 +26,10 @@ struct EdgeUse {
   bool is_upward = false;  ///< the triangle runs from low to high
 };
 
-/// All sides of all triangles, those of the same edge together, in a fixed order.
+/// All sides of all triangles, grouped by edge, in a fixed order.
 std::vector<EdgeUse> edge_uses(const Mesh& mesh);
 
-/// Calls visit(std::span<const EdgeUse>) for each edge, with the triangles that meet there.
+/// Calls visit(std::span<const EdgeUse>) for each edge, with the triangle sides that meet there.
 template <typename Visit>
 void for_each_edge(std::span<const EdgeUse> uses, Visit visit) {
   for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
@@ -41,14 +41,14 @@ void for_each_edge(std::span<const EdgeUse> uses, Visit visit) {
   }
 }
 
-/// Whether every edge belongs to two triangles that run along it in opposite directions.
+/// Whether every edge belongs to exactly two triangles that traverse it in opposite directions.
 bool is_watertight(const Mesh& mesh);
 
 inline const Vector& corner(const Mesh& mesh, const std::array<int, 3>& triangle, std::size_t i) {
   return mesh.vertices[static_cast<std::size_t>(triangle[i])];
 }
 
-/// Twice the triangle's area long, outwards.
+/// Outward normal, of twice the triangle's area in length.
 inline Vector area_normal(const Mesh& mesh, const std::array<int, 3>& triangle) {
   const Vector& a = corner(mesh, triangle, 0);
   return (corner(mesh, triangle, 1) - a).cross(corner(mesh, triangle, 2) - a);
@@ -70,15 +70,15 @@ inline Eigen::AlignedBox3d bounds_of(const Mesh& mesh) {
   return bounds;
 }
 
-/// Of a solid of uniform density.
+/// Mass properties of a solid of uniform density.
 struct MassProperties {
   double volume_m3 = 0;
   Vector centroid = Vector::Zero();                            ///< m
   Eigen::Matrix3d second_moment_m2 = Eigen::Matrix3d::Zero();  ///< mean of x xT about the centroid
 };
 
-/// Exact for the body inside a watertight surface: the sum over the tetrahedra between its
-/// triangles and one point.
+/// Exact for the body inside a watertight surface: the sum over the tetrahedra formed by its
+/// triangles and one common point.
 ///
 ///     V = sum det / 6      int x = sum det/24 s      int x xT = sum det/120 (aaT + bbT + ccT +
 ///     ssT)
@@ -94,20 +94,20 @@ MassProperties mass_properties(const Mesh& mesh);
 /// Inertia tensor per unit mass, I/m = tr(C) 1 - C, where C is the mean of x xT.
 Eigen::Matrix3d gyration_of(const Eigen::Matrix3d& second_moment_m2);
 
-/// Where a body's own frame lies.
+/// A body's own frame.
 struct PrincipalFrame {
   Vector origin = Vector::Zero();                      ///< centre of mass, in the scan's frame
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< its columns, right-handed
   Vector gyration_m2 = Vector::Zero();                 ///< ascending: x is the long axis
 };
 
-/// Principal axes by ascending moment of inertia. x and y point to where the body reaches farther
-/// out: the mean of x^3 and of y^3 is not negative; where it vanishes, the axis has its largest
-/// part positive in the scan's frame. Axes of equal moments keep as close to the scan's as they
-/// can.
+/// Principal axes by ascending moment of inertia. x and y point to the side on which the body
+/// extends farther: the means of x^3 and y^3 are not negative; if one vanishes, the axis has its
+/// largest component positive in the scan's frame. Axes of equal moments are chosen as close to the
+/// scan's as possible.
 PrincipalFrame principal_frame(const Mesh& mesh);
 
-/// The surface as seen from the frame.
+/// The surface in the coordinates of the frame.
 Mesh in_frame(const Mesh& mesh, const PrincipalFrame& frame);
 
 }  // namespace repose::dem

@@ -28,10 +28,9 @@ namespace repose::dem {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 5'000'000;
-/// Corners of one face. Cutting a polygon into triangles takes time with the cube of its corners.
+/// Maximum corners per face. The time to triangulate a polygon grows with the cube of its corners.
 constexpr std::size_t kMaxCorners = 256;
-constexpr double kLargestCoordinate =
-    1e9;  // in any unit; beyond, single precision has no shape left
+constexpr double kLargestCoordinate = 1e9;  // in any unit; single precision loses the shape beyond
 
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& file, const std::string& reason) {
   base::refuse(file, fmt::format("cannot be read as a surface ({})", reason),
@@ -99,7 +98,7 @@ void check_coordinates(const std::filesystem::path& file, const Mesh& mesh) {
   }
 }
 
-/// Through assimp, which sees these bytes and no file.
+/// Reads with assimp, which gets only these bytes, no file.
 Mesh read_by_assimp(const std::filesystem::path& file, std::string_view bytes,
                     const std::string& ending) {
   Assimp::Importer importer;
@@ -122,13 +121,13 @@ Mesh read_by_assimp(const std::filesystem::path& file, std::string_view bytes,
   return mesh;
 }
 
-/// As STL files have them, so that a surface is the same from either.
+/// In single precision as in STL files, so that a surface is the same from either format.
 std::array<float, 3> in_single_precision(const base::Corner& corner) {
   return {static_cast<float>(corner[0]), static_cast<float>(corner[1]),
           static_cast<float>(corner[2])};
 }
 
-/// For assimp to cut faces of more than three corners.
+/// As OBJ text, for assimp to triangulate faces of more than three corners.
 std::string obj_of(const base::PolygonSurface& surface) {
   std::string text;
   const auto out = std::back_inserter(text);
@@ -144,7 +143,7 @@ std::string obj_of(const base::PolygonSurface& surface) {
   return text;
 }
 
-/// Files of polygons are read here: assimp does not survive all that a damaged one may hold.
+/// PLY and OBJ files are parsed here: damaged ones can crash assimp.
 base::PolygonSurface polygons_in(const std::filesystem::path& file, std::string_view bytes,
                                  const std::string& ending) {
   try {

@@ -19,7 +19,7 @@ namespace {
 
 using NextCorners = std::map<int, std::vector<int>>;
 
-/// Where the rims lead from each corner: against the direction of the triangle that is there.
+/// Next rim corners from each corner: against the direction of the adjoining triangle.
 NextCorners rim_edges(const Mesh& mesh) {
   NextCorners next;
   const std::vector<EdgeUse> uses = edge_uses(mesh);
@@ -54,7 +54,7 @@ std::vector<Hole> find_holes(const Mesh& mesh) {
   std::vector<Hole> holes;
   for (auto& [start, ways] : next) {
     while (!ways.empty()) {
-      // A rim that meets itself in one corner is cut there into rims of their own.
+      // A rim that meets itself at a corner is split there into separate rims.
       std::vector<int> walk = {start};
       while (!walk.empty()) {
         std::vector<int>& onwards = next[walk.back()];
@@ -93,7 +93,7 @@ constexpr int kNone = -1;
 
 struct Neighbour {
   int triangle = kNone;
-  bool agrees = true;  ///< runs along the common edge the other way
+  bool agrees = true;  ///< traverses the common edge in the opposite direction
 };
 
 using FacetNeighbours = std::vector<std::array<Neighbour, 3>>;
@@ -113,8 +113,8 @@ FacetNeighbours neighbours_of(const Mesh& mesh) {
   return neighbours;
 }
 
-/// Walks one piece from `seed`. A triangle's `turned` is 1 when it disagrees with the seed.
-/// @return the piece's triangles; `is_two_sided` becomes false where the walk contradicts itself.
+/// Walks one piece from `seed`. A triangle's `turned` is 1 if it disagrees with the seed.
+/// @return the piece's triangles; `is_two_sided` becomes false if the walk contradicts itself.
 std::vector<int> walk_piece(const FacetNeighbours& neighbours, int seed, std::vector<int>& turned,
                             bool& is_two_sided) {
   std::vector<int> piece = {seed};
@@ -183,7 +183,7 @@ constexpr double kTouchFraction = 1e-7;
 
 using Triangle = std::array<Vector, 3>;
 
-/// Whether the segment p-q goes through the triangle, by more than `touch` on both sides.
+/// Whether the segment p-q passes through the triangle, by more than `touch` on both sides.
 bool pierces(const Vector& p, const Vector& q, const Triangle& triangle, double touch) {
   const Vector normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   const double length = normal.norm();
@@ -205,7 +205,7 @@ Triangle places(const Mesh& mesh, const std::array<int, 3>& triangle) {
   return {corner(mesh, triangle, 0), corner(mesh, triangle, 1), corner(mesh, triangle, 2)};
 }
 
-/// Sides of `of` that could pass through `other`: not those that start at a common corner.
+/// Whether any side of `of` passes through `other`, without sides that share a corner with it.
 bool any_side_pierces(const Mesh& mesh, const std::array<int, 3>& of,
                       const std::array<int, 3>& other, double touch) {
   const auto is_common = [&](int index) {
@@ -257,7 +257,7 @@ class CornerFinder {
  public:
   CornerFinder(const Vector& origin, double distance) : origin_(origin), distance_(distance) {}
 
-  /// The corner near `point`, which is added when there is none.
+  /// The corner near `point`; added if there is none.
   int corner_at(const Vector& point, std::vector<Vector>& corners) {
     const Cell cell = cell_of(point);
     for (std::int64_t x = -1; x <= 1; ++x) {

@@ -27,7 +27,7 @@ std::string place_of(const Vector& point_m) {
   return text("(%.4g, %.4g, %.4g) mm", 1e3 * point_m.x(), 1e3 * point_m.y(), 1e3 * point_m.z());
 }
 
-/// A surface being repaired: what was mended, and what cannot be.
+/// A surface being repaired, with repairs made and errors that cannot be repaired.
 struct Workpiece {
   Mesh mesh;
   std::vector<std::string> repairs;
@@ -54,8 +54,8 @@ void weld_corners(Workpiece& piece) {
   }
 }
 
-/// Where more than two triangles meet in an edge, the surface has no one inside: cut them out, the
-/// hole is filled like any other.
+/// If more than two triangles meet at an edge, the inside is ambiguous: removes them; the hole is
+/// filled like any other.
 void remove_non_manifold_edges(Workpiece& piece) {
   std::vector<bool> keep(piece.mesh.triangles.size(), true);
   const std::vector<EdgeUse> uses = edge_uses(piece.mesh);
@@ -96,7 +96,7 @@ void orient(Workpiece& piece) {
   }
 }
 
-/// Keeps the one body; loose flakes go, several bodies are not ours to choose from.
+/// Keeps the one body and drops loose flakes; several bodies are an error.
 void keep_one_body(Workpiece& piece) {
   const std::vector<int> piece_of = pieces_of(piece.mesh);
   std::vector<double> areas(piece_of.empty() ? 0
@@ -164,7 +164,7 @@ void turn_outside_out(Workpiece& piece) {
 }
 
 void check_volume(Workpiece& piece) {
-  constexpr double kFlat = 1e-6;  // of the cube over the diagonal
+  constexpr double kFlat = 1e-6;  // of the diagonal cubed
   const double diagonal = bounds_of(piece.mesh).diagonal().norm();
   if (signed_volume(piece.mesh) <= kFlat * diagonal * diagonal * diagonal) {
     piece.errors.push_back({.value = "encloses next to no volume",

@@ -9,7 +9,7 @@ namespace repose::dem {
 
 using Bounds = Eigen::AlignedBox3d;
 
-/// A point of a triangle, and which part of the triangle it lies on.
+/// A point on a triangle, and the part of the triangle it lies on.
 struct TrianglePoint {
   enum class Part { face, edge, corner };
   Vector point = Vector::Zero();
@@ -21,7 +21,7 @@ struct TrianglePoint {
 TrianglePoint nearest_on_triangle(const Vector& point, const Vector& a, const Vector& b,
                                   const Vector& c);
 
-/// Boxes in boxes around triangles. The mesh must outlive it.
+/// Bounding-box hierarchy of triangles. The mesh must outlive it.
 class TriangleTree {
  public:
   explicit TriangleTree(const Mesh& mesh);
@@ -31,7 +31,7 @@ class TriangleTree {
     TrianglePoint where;
     double squared_distance = 0;
   };
-  /// The point of the surface nearest to `point`; among equals always the same one.
+  /// The point of the surface nearest to `point`; ties are resolved deterministically.
   Nearest nearest(const Vector& point) const;
 
   /// Appends the triangles whose bounds touch `bounds`.
