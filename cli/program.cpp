@@ -41,17 +41,17 @@ namespace repose::cli {
 
 namespace {
 
-/// What the command line comes down to: one of these.
+/// The parsed command line: one of these.
 struct Arguments {
-  std::function<ExitCode()> run;  ///< carries out the command that was asked for
+  std::function<ExitCode()> run;  ///< runs the requested command
   base::FieldNames fields;        ///< of this command
-  std::string text;               ///< asked for: help or version
-  std::string error;              ///< why it is no command line, and how to mend it
+  std::string text;               ///< requested help or version
+  std::string error;              ///< why the command line is invalid, and how to fix it
 };
 
-constexpr int kOptionColumn = 32;  // where the help's explanations begin
+constexpr int kOptionColumn = 32;  // where explanations begin in the help
 
-/// A command and what CLI11 knows of it.
+/// A command and its CLI11 objects.
 struct Registered {
   Command command;
   CLI::App* app = nullptr;
@@ -99,7 +99,8 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-/// What to do about a word that is no command and no option of `app`, which `usage` calls.
+/// The error for a word that is neither a command nor an option of `app`; `usage` is how to call
+/// it.
 std::string unknown_word(const CLI::App& app, const std::string& usage, const std::string& word) {
   const bool is_option = word.starts_with('-');
   const auto known = is_option ? option_names(app) : command_names(app);
@@ -124,7 +125,7 @@ std::string error_of(const CLI::App& app, const Registered* parsed, const CLI::P
   return fmt::format("{}. Fix: see {} --help.", error.what(), usage);
 }
 
-/// An option that was given nothing is not one that was left out.
+/// An option with an empty value is not the same as an omitted one.
 std::string empty_value(const Registered& parsed) {
   for (const CLI::Option* option : parsed.app->get_options()) {
     const auto& given = option->results();
@@ -187,7 +188,7 @@ std::vector<Command> all_commands() {
 
 namespace {
 
-/// Says what nobody has foreseen.
+/// Reports unexpected exceptions.
 ExitCode report(const std::exception& error, const std::string& command) {
   if (base::is_out_of_memory(error)) {
     print_line(

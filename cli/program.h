@@ -10,15 +10,15 @@
 
 namespace repose::cli {
 
-/// In the order of the program's help.
+/// All commands, in the order of the program's help.
 std::vector<Command> all_commands();
 
-/// Does a command's work, and says what it throws: an input's faults, a line each, with the options
-/// of their fields; all else, a library's std::invalid_argument too, as an internal error.
+/// Runs a command's work and prints its exceptions: input errors, a line each, with the options of
+/// their fields; all others, including a library's std::invalid_argument, as internal errors.
 ExitCode carry_out(const std::function<ExitCode()>& work, const std::string& command,
                    base::FieldNames fields);
 
-/// The program, from its command line to its exit code: what main() does.
+/// The whole program, from command line to exit code; called by main().
 int run_program(int count, const char* const* words);
 
 }  // namespace repose::cli

@@ -9,12 +9,13 @@
 
 namespace repose::calibrate {
 
-/// The results of `count` pieces of work, such as pictures or films, on some threads.
-/// @param one  (number): the result of one; what it throws ends the work
+/// Processes `count` items, such as pictures or films, on `threads` threads and returns their
+/// results.
+/// @param one  called with an item's number, returns its result; an exception from it ends the work
 template <typename Result, typename One>
 std::vector<Result> batch_of(std::size_t count, int threads, const One& one) {
   std::vector<Result> results(count);
-  // The control holds for the parallel loops inside OpenCV too.
+  // The control also applies to the parallel loops inside OpenCV.
   const tbb::global_control at_most(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);

@@ -31,13 +31,13 @@ double protocol_value(const dem::ExperimentEntry& entry, dem::Protocol protocol,
 
 namespace {
 
-/// Takes the air out of one experiment's heights, which are in mm.
+/// Corrects one experiment's heights, in mm, for air drag.
 class Evacuation {
  public:
   Evacuation(std::string experiment, const base::FallingGrain& grain, double fall_m)
       : experiment_(std::move(experiment)), grain_(grain), fall_m_(fall_m) {}
 
-  /// Heights below 0, of grains that topple, are no flights.
+  /// Heights below 0, of grains that topple, are not flights.
   double rise_mm(double read_mm) const {
     if (read_mm <= 0) return read_mm;
     return kMmPerM * base::rise_without_air_m(grain_, fall_m_, read_mm * kMPerMm);
@@ -55,7 +55,7 @@ class Evacuation {
                 "of drag already."});
   }
 
-  /// How much the rise changes with what is read.
+  /// Derivative of the rise with respect to the reading.
   double slope(double read_mm) const {
     constexpr double kStep = 1e-3;
     if (read_mm <= 0) return 1;
@@ -75,7 +75,7 @@ class Evacuation {
                 grain_.sphericity)};
   }
 
-  /// What was known of the heights as they were read goes with the slope, as their scatter does.
+  /// Existing uncertainties of the readings scale with the slope, as their scatter does.
   void add_to(std::vector<dem::Systematic>& parts, double read_mm) const {
     for (dem::Systematic& part : parts) part.sd *= slope(read_mm);
     parts.push_back(systematic(read_mm));
@@ -114,7 +114,7 @@ class Evacuation {
 }  // namespace
 
 base::FallingGrain falling_grain(const dem::ClumpShape& grain, double density_kg_m3) {
-  constexpr double kFlattest = 1e-3;  // of the largest: what is thinner has no sphericity
+  constexpr double kFlattest = 1e-3;  // of the largest: thinner grains have no sphericity
   const dem::Vector& k2 = grain.gyration_m2;
   std::array<double, 3> axes{};
   for (int i = 0; i < 3; ++i) axes[static_cast<std::size_t>(i)] = 2.5 * (k2.sum() - 2 * k2[i]);
@@ -145,7 +145,7 @@ dem::Study without_air(dem::Study study, const dem::ClumpShape& grain) {
 
 namespace {
 
-/// Why a film shows another experiment than the study's; empty: it does not.
+/// How a film's experiment differs from the study's; empty: it does not.
 std::string other_setting(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
                           const std::map<std::string, FilmNumber>& row) {
   std::vector<dem::FilmedSetting> settings = entry.filmed_settings;
@@ -259,7 +259,7 @@ dem::Study with_pictures(dem::Study study, const std::vector<PictureReading>& pi
 
 namespace {
 
-/// Readings taken in another way are no readings of this experiment.
+/// Readings taken in another way do not belong to this experiment.
 void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& protocol,
                     const std::vector<BenchReading>& readings, base::Faults& errors) {
   const std::vector<std::string> names = column_names(bench_test_named(entry.sheet.test));
@@ -287,7 +287,7 @@ void check_protocol(const dem::ExperimentEntry& entry, const dem::Protocol& prot
   errors.add_all(rows.all());
 }
 
-/// Heights with and without air have no common mean.
+/// Heights with and without air drag cannot be averaged.
 void check_one_air(const std::string& sheet, const std::vector<BenchReading>& readings,
                    base::Faults& errors) {
   std::set<double> answers;
@@ -361,7 +361,7 @@ dem::Study with_readings(dem::Study study, const std::vector<SheetReadings>& she
 
 dem::Study as_measured(dem::Study study, const dem::ClumpShape& grain,
                        const Measurement& measurement) {
-  // Films see the drag and leave it out themselves.
+  // Film tracking already accounts for the drag.
   study = with_films(without_air(with_readings(std::move(study), measurement.sheets), grain),
                      measurement.films);
   return with_pictures(std::move(study), measurement.pictures);

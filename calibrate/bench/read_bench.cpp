@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where what is wrong, and what is to be known, is collected.
+/// Collects errors and notes.
 struct Findings {
   base::Faults faults;
   std::vector<std::string>& notes;
@@ -70,10 +70,10 @@ PictureReading reading_of(const fs::path& file, const vision::ReposeAngle& angle
           .camera_deg = picture.camera_deg};
 }
 
-/// A picture, a film or a scan of a heap, as it was measured.
+/// A measured picture, film or scan of a heap.
 struct MeasuredFile {
   fs::path file;
-  std::string pixels;  ///< a fingerprint of the picture's; empty: no picture
+  std::string pixels;  ///< fingerprint of the picture's pixels; empty: no picture
   PictureReading reading;
 };
 
@@ -90,7 +90,7 @@ MeasuredFile measured_file(const fs::path& file, const std::string& definition) 
           .reading = reading_of(file, seen.heap.angle)};
 }
 
-/// What to know about a picture that is not quite as it should be.
+/// A note on a picture that is not quite as it should be.
 std::string note_on(const PictureReading& picture) {
   return counts_in_mean(picture.status)
              ? fmt::format("{}: flagged, but counted; check it with repose measure --overlay.",
@@ -98,7 +98,7 @@ std::string note_on(const PictureReading& picture) {
              : fmt::format("{}: refused, left out: {}", picture.file.string(), picture.reason);
 }
 
-/// The heap of each file that the study puts into a group, by vision::identity().
+/// The heap of each file that the study assigns to a group, keyed by vision::identity().
 std::map<std::string, std::string> heaps_named(const dem::Measured& bench, base::Faults& faults) {
   std::map<std::string, std::string> heaps;
   for (std::size_t k = 0; k < bench.picture_heaps.size(); ++k) {
@@ -117,7 +117,7 @@ std::map<std::string, std::string> heaps_named(const dem::Measured& bench, base:
   return heaps;
 }
 
-/// Those that can be read; of copies the first.
+/// Measures those that can be read; of duplicates only the first.
 std::vector<PictureReading> measured_once(const std::vector<fs::path>& files,
                                           const std::map<std::string, std::string>& heaps,
                                           const std::string& definition, Findings& findings) {
@@ -150,7 +150,7 @@ std::vector<PictureReading> measured_once(const std::vector<fs::path>& files,
   return pictures;
 }
 
-/// Pictures that are far from the others: each is named, whether it counts or not.
+/// Names each picture that is far from the others, whether it counts or not.
 void note_outliers(const std::vector<PictureReading>& pictures, std::vector<std::string>& notes) {
   const PictureSet set = set_of(pictures);
   for (const OutlyingPicture& outlier : set.outliers) {
@@ -160,14 +160,14 @@ void note_outliers(const std::vector<PictureReading>& pictures, std::vector<std:
   }
 }
 
-/// Files of heaps that the bench names.
+/// Files of heaps named in the study.
 vision::FileList listed(const dem::Measured& bench) {
   if (!bench.scans.empty()) return vision::list_scans(names_of(bench.scans));
   if (!bench.videos.empty()) return vision::list_films(names_of(bench.videos));
   return vision::list_pictures_and_films(names_of(bench.pictures));
 }
 
-/// Scans are no pictures, nor has a camera of theirs a place.
+/// Scans are not pictures, and have no camera position.
 void check_medium(const dem::Study& study, const dem::StudyExperiment& described,
                   const std::vector<fs::path>& files, base::Faults& faults) {
   const bool is_scanned = !described.measured.scans.empty();
@@ -190,7 +190,7 @@ void check_medium(const dem::Study& study, const dem::StudyExperiment& described
                           entry.name)});
 }
 
-/// What is wrong with the first of pictures that are all refused.
+/// The reason for the first picture, if all are refused.
 std::string why_first(const std::vector<PictureReading>& pictures) {
   if (pictures.empty()) return {};
   const PictureReading& first = pictures.front();
@@ -211,7 +211,7 @@ std::vector<PictureReading> measure_heaps(const dem::Study& study, Findings& fin
   note_outliers(pictures, findings.notes);
   const bool any = std::ranges::any_of(
       pictures, [](const PictureReading& picture) { return counts_in_mean(picture.status); });
-  // Where a file cannot be read, that is what is wrong.
+  // If a file cannot be read, that is the error.
   findings.faults.require(
       any || !findings.faults.empty(),
       {.where = study.file.string(),
@@ -227,7 +227,7 @@ std::vector<PictureReading> measure_heaps(const dem::Study& study, Findings& fin
 /// A film's track, or why there is none.
 struct TrackedFile {
   vision::FilmTrack track;
-  std::string error;  ///< why it could not be read; empty: its track says
+  std::string error;  ///< why it could not be read; empty: see its track
 };
 
 vision::Filmed filmed_of(const dem::ExperimentEntry& entry) {
@@ -261,7 +261,7 @@ FilmNumber number_of(const vision::Estimate& estimate) {
   return {.value = estimate.value, .uncertainty = estimate.uncertainty};
 }
 
-/// As a bench would write it down.
+/// The row as it would be written down at the bench.
 std::map<std::string, FilmNumber> row_of(const vision::FilmTrack& film) {
   if (film.filmed == vision::Filmed::tilt) {
     return {{"angle_deg", number_of(film.tilt.angle_deg)},
@@ -276,7 +276,7 @@ std::map<std::string, FilmNumber> row_of(const vision::FilmTrack& film) {
   return {{"drop_mm", number_of(first.drop_mm)}, {"rebound_mm", number_of(first.rebound_mm)}};
 }
 
-/// What a person should look at, warning by warning.
+/// What the user should check, warning by warning.
 std::string warnings_text(const vision::FilmTrack& film) {
   std::string text;
   for (const vision::Warning& warning : warnings_of(film)) {
@@ -298,13 +298,13 @@ FilmReading reading_of(const fs::path& file, const TrackedFile& tracked,
   if (status_of(film) != vision::MeasureStatus::ok) {
     reading.reason = has_reading(film) ? warnings_text(film) : reason_of(film);
   }
-  // Its bounces are later ones, whose fall is not the bench's.
+  // Its bounces are later ones, whose fall height is not that set on the bench.
   if (film.filmed == vision::Filmed::drop && !film.drop.has_first_bounce()) return reading;
   if (has_reading(film)) read_row(entry, protocol, row_of(film), reading);
   return reading;
 }
 
-/// What to know about a film that is not quite as it should be.
+/// A note on a film that is not quite as it should be.
 base::Fault fault_of(const FilmReading& film) {
   std::string what = film.reason;
   what += film.value ? fmt::format(
@@ -315,7 +315,7 @@ base::Fault fault_of(const FilmReading& film) {
   return {.where = film.file.string(), .value = std::move(what)};
 }
 
-/// Copies of a film are one film.
+/// Duplicates of a film count once.
 std::vector<fs::path> films_once(const std::vector<fs::path>& videos, Findings& findings) {
   const std::vector<fs::path> files = files_of(vision::list_films(names_of(videos)), findings);
   const auto first_of = vision::copies_among(files, std::vector<std::string>(files.size()));
@@ -374,14 +374,14 @@ void read_films_of(const dem::Study& study, const dem::ExperimentEntry& entry,
                           entry.name)});
 }
 
-/// Tracks the films that the study names, several at a time. An experiment none of whose films
-/// gives a reading is an error.
+/// Tracks the films that the study names, several at a time. It is an error if none of an
+/// experiment's films gives a reading.
 std::vector<FilmReading> read_films(const dem::Study& study, const BenchOptions& options,
                                     Findings& findings) {
   std::vector<FilmReading> readings;
   for (const auto& [experiment, described] : study.experiments) {
     const dem::ExperimentEntry& entry = *experiment;
-    // Those of heaps are measured as pictures are.
+    // Those of heaps are measured like pictures.
     if (described.measured.videos.empty() || entry.is_pictured) continue;
     read_films_of(study, entry, described, options, findings, readings);
   }

@@ -88,7 +88,7 @@ std::string sets_json(const ComparedSets& compared) {
     json["warnings"].push_back({{"code", warning.code}, {"message", warning.message}});
   }
   constexpr int kNoteIndent = 2;
-  // File names need not be UTF-8, JSON must be.
+  // File names need not be UTF-8, but JSON must be.
   return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

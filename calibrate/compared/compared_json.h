@@ -9,7 +9,7 @@
 #include "calibrate/compared/compared_sets.h"
 #include "vision/compare/heap_comparison.h"
 
-/// The words and units of a comparison, and two compared sets as JSON.
+/// Words and units of a comparison, and two compared sets as JSON.
 namespace repose::calibrate {
 
 inline const char* name_of(vision::Agreement verdict) {
@@ -48,19 +48,19 @@ inline const char* name_of(vision::LengthUnit unit) {
   return "height";
 }
 
-/// Files hold mm where the inside of the program has metres.
+/// Files hold mm, the program uses metres internally.
 inline double shown_per_unit(vision::LengthUnit unit) {
   return unit == vision::LengthUnit::metre ? 1000 : 1;
 }
 
-/// The keys of a difference of angles, in comparisons of two pictures and of two sets.
+/// Adds the keys of a difference in angles, for comparisons of two pictures and of two sets.
 void add_angle_difference(nlohmann::ordered_json& json,
                           const std::optional<vision::AngleDifference>& angle);
 
-/// What the angles of both are by.
+/// The definition of both sets' angles.
 nlohmann::ordered_json definition_json(const SetsPlan& plan);
 
-/// What `repose compare --json` writes of two sets; see docs/json.md.
+/// The output of `repose compare --json` for two sets; see docs/json.md.
 std::string sets_json(const ComparedSets& compared);
 
 }  // namespace repose::calibrate

@@ -29,7 +29,7 @@ struct Task {
   const HeapViewSession* session = nullptr;  ///< of a simulated heap
 };
 
-/// Both sets while they are measured.
+/// Both sets while being measured.
 struct Work {
   std::array<std::vector<SeenHeap>, 2> sets;
   std::vector<std::unique_ptr<HeapViewSession>> sessions;
@@ -40,7 +40,7 @@ struct Work {
   int in_both = 0;  ///< heaps that are in both sets
 };
 
-/// Pictures, or scans, whose views are drawn when they are read.
+/// Adds pictures, or scans, whose views are drawn when they are read.
 void add_files(const SetsPlan& plan, std::size_t set, Work& work) {
   const std::optional<vision::PictureScale>& scale = plan.comparing.scale[set];
   for (std::size_t heap = 0; heap < plan.sources[set].files.size(); ++heap) {
@@ -72,8 +72,8 @@ void add_simulated(const SetsPlan& plan, std::size_t set, Work& work) {
   }
 }
 
-/// A view of a simulated heap, all views of a scan, or a photograph; of that with a saved scale the
-/// scale, too.
+/// Measures a view of a simulated heap, all views of a scan, or a photograph, including its saved
+/// scale if any.
 void measure(const SetsPlan& plan, const Task& task, render::Renderer* renderer, SeenHeap& seen,
              Work& work) {
   const vision::MeasureOptions& options = plan.measuring[task.set];
@@ -120,7 +120,7 @@ void measure_all(const SetsPlan& plan, const SetsProgress& progress, Work& work)
   }
 }
 
-/// Takes copies out of each set, and says how many heaps are in both.
+/// Removes duplicates from each set, and counts the heaps that are in both.
 void drop_copies(SetsPlan& plan, Work& work) {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> pixels;
@@ -153,14 +153,14 @@ void drop_copies(SetsPlan& plan, Work& work) {
   }
 }
 
-/// Heaps that have one scale in all their pictures; none where they have several.
+/// The common scale of a heap's pictures; std::nullopt if they differ.
 std::optional<double> scale_of_both(const SeenHeap& one, const SeenHeap& other) {
   constexpr double kAlike = 1e-3;
   if (!one.m_per_px || !other.m_per_px) return std::nullopt;
   return std::abs(*one.m_per_px / *other.m_per_px - 1) < kAlike ? one.m_per_px : std::nullopt;
 }
 
-/// Photographs of one heap become its views: a heap's angle is the mean of them.
+/// Photographs of one heap become its views: the heap's angle is their mean.
 void group_by_name(SetsPlan& plan, Work& work) {
   if (!plan.groups_by_name) return;
   for (const std::size_t set : {0, 1}) {
@@ -188,7 +188,7 @@ void group_by_name(SetsPlan& plan, Work& work) {
   }
 }
 
-/// A set agrees with itself, whatever its grains are.
+/// Warns about heaps in both sets: a set agrees with itself, whatever its grains are.
 void warn_of_both(const SetsPlan& plan, int in_both, vision::SetComparison& comparison) {
   if (in_both == 0) return;
   const auto& [first, second] = plan.sources;

@@ -15,20 +15,21 @@
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
-/// Two sets of files with heaps measured and compared: what `repose compare` prints of sets and the
-/// studio shows.
+/// Two sets of heap files, measured and compared, for `repose compare` and the studio.
 namespace repose::calibrate {
 
 struct SetsPlan {
   std::array<HeapSource, 2> sources = {};
   std::array<vision::MeasureOptions, 2> measuring = {};
   vision::CompareOptions comparing = {};
-  std::optional<dem::LevelCamera> camera = {};  ///< before simulated heaps; none: far away
-  bool groups_by_name = false;  ///< pictures that differ in a last number alone are of one heap
-  std::array<base::FieldNames, 2> fields = {};  ///< what faults of each set call what was said
+  std::optional<dem::LevelCamera> camera = {};  ///< for simulated heaps; std::nullopt: far away
+  bool groups_by_name =
+      false;  ///< pictures whose names differ only in a last number are of one heap
+  std::array<base::FieldNames, 2> fields =
+      {};  ///< names of the inputs in each set's error messages
 };
 
-/// Told by several threads while it is worked.
+/// Called by several threads during the work.
 struct SetsProgress {
   std::function<void(std::size_t pictures)> begins = [](std::size_t) {};
   std::function<void()> advances = [] {};
@@ -36,11 +37,11 @@ struct SetsProgress {
 };
 
 struct ComparedSets {
-  SetsPlan plan;  ///< without copies; photographs of one heap are its views
+  SetsPlan plan;  ///< without duplicates; photographs of one heap are its views
   std::array<std::vector<vision::SeenHeap>, 2> heaps;
   vision::SetComparison comparison;
-  std::vector<std::string> notes;   ///< of copies that were left out
-  std::vector<std::string> errors;  ///< of files; nothing is compared where there are some
+  std::vector<std::string> notes;   ///< on duplicates that were left out
+  std::vector<std::string> errors;  ///< of files; if there are any, nothing is compared
   bool was_stopped = false;
 
   bool has_verdict() const { return comparison.sets[0].mean_rad && comparison.sets[1].mean_rad; }
@@ -50,7 +51,7 @@ struct ComparedSets {
 
 ComparedSets compare_sets_of(SetsPlan plan, const SetsProgress& progress);
 
-/// Both, as `repose compare --overlay` draws them.
+/// Both sets, as `repose compare --overlay` draws them.
 vision::Picture figure_of(const ComparedSets& compared, int width_px = vision::kSetsFigure_px);
 
 }  // namespace repose::calibrate

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those of a folder that `is_wanted` takes, by name; none when it cannot be read.
+/// Files of a folder accepted by `is_wanted`, sorted by name; empty if it cannot be read.
 template <typename Wanted>
 std::vector<fs::path> files_of(const fs::path& folder, const Wanted& is_wanted) {
   std::vector<fs::path> found;

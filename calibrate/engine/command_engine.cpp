@@ -54,8 +54,8 @@ Json json_of(const dem::ConfigValue& value) {
   return nullptr;
 }
 
-/// The words of a command as its shell parts them, with their quotes: at blanks and operators that
-/// are not quoted (POSIX.1-2017, XCU 2.2 and 2.3).
+/// The words of a command as the shell splits them, with their quotes: at unquoted blanks and
+/// operators (POSIX.1-2017, XCU 2.2 and 2.3).
 std::vector<std::string> quoted_words_of(const std::string& command) {
   std::vector<std::string> words(1);
   char quote = 0;
@@ -80,7 +80,7 @@ std::vector<std::string> quoted_words_of(const std::string& command) {
   return words;
 }
 
-/// What the shell makes of such a word: variables and patterns expanded, without quotes. Commands
+/// Such a word as the shell expands it: variables and patterns expanded, quotes removed. Commands
 /// in it are not run.
 std::vector<std::string> expanded(const std::string& word) {
   wordexp_t found{};
@@ -92,8 +92,8 @@ std::vector<std::string> expanded(const std::string& word) {
   return words;
 }
 
-/// Files of the study's folder that the command names, with what is in them: a script that was
-/// changed makes other runs.
+/// Files in the study's folder that the command names, with fingerprints of their content: a
+/// changed script makes different runs.
 Json files_of(const std::string& command, const fs::path& folder) {
   Json files = Json::object();
   for (const std::string& quoted : quoted_words_of(command)) {
@@ -103,7 +103,7 @@ Json files_of(const std::string& command, const fs::path& folder) {
       try {
         files[word] = base::fingerprint({base::read_whole_file(folder / word)});
       } catch (const base::InputError&) {
-        continue;  // cannot be read; whether that matters, the command will say
+        continue;  // unreadable; the command will report it if that matters
       }
     }
   }
@@ -115,7 +115,7 @@ std::string text_of(const Json& json) {
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-/// Nothing of it is taken for something else: a comma parts cells, a point no thousands.
+/// Unambiguous: commas only separate cells, points never separate thousands.
 std::string cell_of(double number) { return fmt::format("{}", number); }
 
 class CommandEngine : public Engine {
@@ -159,7 +159,7 @@ class CommandEngine : public Engine {
   }
 
   base::ProcessStart start(const fs::path& folder) const override {
-    // The folder is the command's last argument, whatever letters it has.
+    // The folder is the command's last argument, whatever characters it contains.
     return {.words = {"sh", "-c", study_.engine->command + " \"$@\"", "sh",
                       fs::absolute(folder).string()},
             .folder = folder_,
@@ -184,7 +184,7 @@ class CommandEngine : public Engine {
     if (std::string why = failure_in(json); !why.empty()) return failed(std::move(why));
     EngineOutcome outcome;
     for (const auto& [name, value] : json.items()) {
-      // What the table has by other means.
+      // The table gets these in other ways.
       if (name == "status" || name == "reason" || name == "run" || name == "seed") continue;
       if (std::string why = take(name, value, folder, outcome); !why.empty()) {
         return failed(std::move(why));
@@ -197,7 +197,7 @@ class CommandEngine : public Engine {
   }
 
  private:
-  /// @param twice  a name that the object has twice
+  /// @param twice  a duplicate name in the object
   static Json parsed(const std::string& text, std::string& twice) {
     std::set<std::string> names;
     const auto note = [&](int depth, Json::parse_event_t event, const Json& key) {
@@ -210,7 +210,7 @@ class CommandEngine : public Engine {
     return Json::parse(text, note, false);
   }
 
-  /// What often makes a text no JSON.
+  /// A common mistake that makes a text invalid JSON.
   static std::string slip_in(const std::string& text) {
     if (text.find("NaN") != std::string::npos) {
       return ", which has no NaN: write null, or \"failed\"";
@@ -238,7 +238,7 @@ class CommandEngine : public Engine {
                        guess.empty() ? "" : fmt::format(" (but {})", guess));
   }
 
-  /// What the command itself says of the run.
+  /// A failure that the command itself reports for the run.
   static std::string failure_in(const Json& json) {
     if (!json.contains("status")) return {};
     const std::string status =
@@ -251,7 +251,7 @@ class CommandEngine : public Engine {
     return fmt::format("its status is \"{}\", which is neither ok nor failed{}", status, reason);
   }
 
-  /// @return what is wrong with it
+  /// @return  what is wrong with it
   std::string take(const std::string& name, const Json& value, const fs::path& folder,
                    EngineOutcome& outcome) const {
     const std::vector<std::string> readings = readings_of(study_);
@@ -266,7 +266,7 @@ class CommandEngine : public Engine {
       outcome.readings.push_back({.column = name, .cell = cell_of(number)});
       return {};
     }
-    // Columns of text say nothing.
+    // Text in other columns is ignored.
     if (!is_asked_for) return {};
     if (!value.is_string()) {
       return fmt::format("{} is {}: a number, a file's name or null is read", name,

@@ -9,15 +9,15 @@
 #include "base/child_process.h"
 #include "calibrate/runs/table_study.h"
 
-/// Programs that make the runs of a study of a table, each run in a folder of its own. What is
-/// common to all of them (processes, time limits, the table of runs, which runs to make) is
-/// engine_runs.h and engine_study.h; another engine is another implementation of Engine.
+/// Programs that make the runs of a table study, each run in its own folder. What they have in
+/// common (processes, time limits, the table of runs, which runs to make) is in engine_runs.h and
+/// engine_study.h; each engine is an implementation of Engine.
 namespace repose::calibrate {
 
 inline constexpr const char* kRunFile = "run.json";
 inline constexpr const char* kReadingFile = "reading.json";
 
-/// A run that is to be made.
+/// A run to be made.
 struct EngineRun {
   std::string name;  ///< of its folder: "run_007"
   std::uint64_t seed = 0;
@@ -28,13 +28,13 @@ struct EngineRun {
 struct EngineReading {
   std::string column;
   std::string cell;      ///< a number, a word such as "failed", or the name of a file in the folder
-  bool is_file = false;  ///< the last
+  bool is_file = false;  ///< the cell is a file name
 };
 
-/// What a run gave.
+/// The outcome of a run.
 struct EngineOutcome {
   std::vector<EngineReading> readings;
-  std::string failure;  ///< why it gave none; empty: it did
+  std::string failure;  ///< why there are no readings; empty: there are
 };
 
 class Engine {
@@ -46,21 +46,21 @@ class Engine {
   Engine(Engine&&) = delete;
   Engine& operator=(Engine&&) = delete;
 
-  /// What a run gives depends on, beside its parameters and seed, as one line. Runs with others are
-  /// those of another model.
+  /// Everything besides parameters and seed that a run's outcome depends on, as one line. Runs with
+  /// a different identity are of another model.
   virtual std::string identity() const = 0;
-  /// The identity of the engine that a folder was prepared by; empty where nothing says it.
+  /// The identity of the engine that prepared a folder; empty if not recorded.
   virtual std::string identity_in(const std::filesystem::path& folder) const = 0;
 
-  /// Writes all that the run needs into its folder, which is empty.
+  /// Writes everything the run needs into its folder, which must be empty.
   virtual void prepare(const EngineRun& run, const std::filesystem::path& folder) const = 0;
-  /// The program of a folder that was prepared. Its output is the caller's to choose.
+  /// The program to start in a prepared folder. The caller chooses where its output goes.
   virtual base::ProcessStart start(const std::filesystem::path& folder) const = 0;
-  /// Once the program has ended well.
+  /// To be called once the program has succeeded.
   virtual EngineOutcome read_back(const std::filesystem::path& folder) const = 0;
 };
 
-/// A command of the user's, [engine] command: gets run.json, and leaves reading.json. Both are
+/// A user's command ([engine] command) that reads run.json and writes reading.json. Both are
 /// described in docs/engines.md. Proved by OneRunTest.* in tests/calibrate.
 std::unique_ptr<Engine> command_engine(const TableStudy& study);
 

@@ -34,12 +34,12 @@ std::vector<std::string> usual_columns(const TableStudy& study) {
   return columns;
 }
 
-/// How runs of a kind are called.
+/// Name prefix of runs of this purpose.
 std::string_view prefix_of(RunsFor purpose) { return purpose == RunsFor::fit ? "run_" : "check_"; }
 
 const char* file_of(RunsFor purpose) { return purpose == RunsFor::fit ? "runs.csv" : "checks.csv"; }
 
-/// Of "run_012"; 0: it is no such name.
+/// 12 for "run_012"; 0: not such a name.
 int number_in(const std::string& name, RunsFor purpose) {
   const std::string_view prefix = prefix_of(purpose);
   if (!name.starts_with(prefix)) return 0;
@@ -49,7 +49,7 @@ int number_in(const std::string& name, RunsFor purpose) {
   return error == std::errc{} && stopped_at == end ? number : 0;
 }
 
-/// Runs are numbered by the table: without it new ones would stand where these are.
+/// Runs are numbered by the table: without it, new runs would overwrite these.
 void refuse_runs_without_table(const fs::path& folder, const fs::path& file, RunsFor purpose) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -97,8 +97,8 @@ EngineRuns::EngineRuns(const TableStudy& study, const fs::path& folder, RunsFor 
   refuse_other_parameters();
 }
 
-/// Runs of more parameters than the study has: what they had for those that are gone, a fit would
-/// take for chance.
+/// Refuses runs with parameters that the study no longer has: a fit would treat the effect of these
+/// as random scatter.
 void EngineRuns::refuse_other_parameters() const {
   for (std::size_t row = 0; row < table_.rows.size(); ++row) {
     const auto text = base::read_file_if_there(folder_of(row) / kRunFile);
@@ -126,7 +126,7 @@ const std::string& EngineRuns::cell(std::size_t row, const std::string& column) 
   return table_.rows[row].cells[*table_.column(column)];
 }
 
-/// Before the reason, in the order of their names: whichever run is the first to have one.
+/// Inserts columns before the reason, in order of names, regardless of which run has one first.
 void EngineRuns::add_column(const std::string& name) {
   const std::vector<std::string> usual = usual_columns(study_);
   std::size_t place = 0;
@@ -140,7 +140,7 @@ void EngineRuns::add_column(const std::string& name) {
   for (TableRow& row : table_.rows) row.cells.insert(row.cells.begin() + at, std::string());
 }
 
-/// Those that somebody has added.
+/// Names rows that a user has added.
 void EngineRuns::name_rows() {
   int last = 0;
   for (std::size_t row = 0; row < table_.rows.size(); ++row) {
@@ -225,7 +225,7 @@ void EngineRuns::plan(const TableRuns& table, const std::vector<NextRun>& runs) 
   TableRuns written = table;
   written.columns = table_.columns;
   written.delimiter = table_.delimiter;
-  // As the numbers that are there; where there are none, with a point.
+  // As in existing numbers; if there are none, a decimal point.
   written.has_decimal_comma =
       table_.delimiter != ',' && std::ranges::any_of(table_.rows, [&](const TableRow& row) {
         return std::ranges::any_of(study_.parameters, [&](const Parameter& parameter) {
@@ -251,7 +251,7 @@ EngineRun EngineRuns::run(std::size_t row) const {
 
 fs::path EngineRuns::folder_of(std::size_t row) const { return folder_ / cell(row, kRun); }
 
-/// The row by itself, in the run's folder, read as all rows are.
+/// Checks the row alone, in the run's folder, read like all rows.
 std::string EngineRuns::fault_of(std::size_t row, const EngineOutcome& outcome) const {
   Table one{.name = {}, .columns = {}, .rows = {{}}, .has_decimal_comma = false};
   for (const Parameter& parameter : study_.parameters) {
@@ -298,7 +298,7 @@ std::string EngineRuns::keep(std::size_t row, EngineOutcome outcome) {
       if (reading.is_file) {
         to = cell(row, kRun) + '/' + to;
       } else if (table_.delimiter != ',') {
-        // As a spreadsheet has saved it.
+        // As a spreadsheet saved it.
         const std::string& beside = cell(row, study_.parameters.front().name);
         if (beside.find(',') != std::string::npos) std::ranges::replace(to, '.', ',');
       }

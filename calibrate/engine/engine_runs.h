@@ -13,20 +13,18 @@
 
 namespace repose::calibrate {
 
-/// What runs are made for.
+/// The purpose of runs.
 enum class RunsFor { fit, check };
 
-/// The runs that an engine makes: FOLDER/runs/runs.csv, a table of runs as anybody's, and beside it
-/// a folder of each run, which the column "run" names. Those that check a fit, and have no part in
-/// one, are in FOLDER/runs/checks.csv, with seeds of their own. Rows without a reading and a status
-/// are still to be made. The table is all that is known of the runs, so that whoever changes it, or
-/// adds rows, is heeded; it is written after each run. Proved by EngineStudyTest.* in
-/// tests/calibrate.
+/// The runs that an engine makes: FOLDER/runs/runs.csv, an ordinary table of runs, and beside it a
+/// folder for each run, named in the column "run". Runs that check a fit, and are not used in it,
+/// are in FOLDER/runs/checks.csv, with seeds of their own. Rows without a reading and a status are
+/// still to be made. The table holds the whole state, so changes to it and added rows take effect;
+/// it is written after each run. Proved by EngineStudyTest.* in tests/calibrate.
 class EngineRuns {
  public:
-  /// @throws base::InputError  there is a table that lacks a parameter or a reading of the study,
-  /// or
-  ///   whose runs have a parameter that the study has not.
+  /// @throws base::InputError  a table exists that lacks a parameter or a reading of the study, or
+  ///   whose runs have a parameter that the study does not have.
   EngineRuns(const TableStudy& study, const std::filesystem::path& folder,
              RunsFor purpose = RunsFor::fit);
 
@@ -39,23 +37,22 @@ class EngineRuns {
   /// Rows with these parameters, made or not.
   std::vector<std::size_t> rows_at(const std::vector<double>& values) const;
   bool is_made(std::size_t row) const;
-  std::size_t made() const;    ///< whatever became of them
-  std::size_t failed() const;  ///< of these, all of whose readings are missing
+  std::size_t made() const;    ///< whether or not they succeeded
+  std::size_t failed() const;  ///< of these, those without any reading
   bool has_reading() const;
 
-  /// Where no run has a reading, whatever kept them from it may have been mended since: those that
-  /// failed are to be made again.
+  /// If no run has a reading, the cause may have been fixed since: failed runs are made again.
   void retry_if_none_succeeded();
 
   /// Adds rows that are to be made.
-  /// @param table  what has been read of all runs
+  /// @param table  all runs as read so far
   void plan(const TableRuns& table, const std::vector<NextRun>& runs);
 
   EngineRun run(std::size_t row) const;
   std::filesystem::path folder_of(std::size_t row) const;
 
-  /// Keeps what a run gave. What a table of runs cannot have, such as an angle of 400 degrees or a
-  /// picture that cannot be read, makes it a failed run.
+  /// Saves the outcome of a run. Anything that a table of runs cannot hold, such as an angle of 400
+  /// degrees or an unreadable picture, makes it a failed run.
   /// @return why it failed; empty: it did not
   std::string keep(std::size_t row, EngineOutcome outcome);
 

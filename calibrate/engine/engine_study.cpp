@@ -26,18 +26,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs of a round are asked for together: many at once keep many jobs busy, few are chosen better.
+/// Runs of a round are planned together: many keep many jobs busy, few are chosen better.
 constexpr std::size_t kRound = 8;
-/// What the table of runs is called, whatever the folder is: a result is the same in any.
+/// Name of the run table, independent of the folder, so that results are the same in any.
 constexpr const char* kRunsInFolder = "runs/runs.csv";
-/// If none of so many first ones gives a reading, none will.
+/// If none of this many first runs gives a reading, none will.
 constexpr std::size_t kFirst = 3;
-/// Of a program with chance, at the fitted parameters: as many as repose makes of its own dear
-/// ones.
+/// For a stochastic program, at the fitted parameters: as many as repose makes of its own expensive
+/// runs.
 constexpr int kUsualCheckRuns = 6;
 constexpr const char* kByFailures = "failures";
 
-/// Enough places for a fit, though one in six is a repeat and some may fail.
+/// Enough points for a fit, although one in six is a repeat and some may fail.
 std::size_t start_runs(std::size_t parameters) { return 3 * parameters + 3; }
 
 TableStudy study_with_engine(const EngineRequest& request) {
@@ -48,7 +48,7 @@ TableStudy study_with_engine(const EngineRequest& request) {
                "--runs runs.csv.");
 }
 
-/// The study and the runs that there are, and what is to be made next.
+/// The study, its existing runs, and what to make next.
 class EngineStudy {
  public:
   explicit EngineStudy(const EngineRequest& request)
@@ -85,7 +85,7 @@ class EngineStudy {
     return files;
   }
 
-  /// What is still to be made of the runs asked for, or those asked for now; within the limit.
+  /// Planned runs that are still to be made, or newly planned ones; within the limit.
   NextRuns ask() {
     const std::size_t made = runs_.made();
     const std::size_t left = most_ > made ? most_ - made : 0;
@@ -101,7 +101,7 @@ class EngineStudy {
     return next;
   }
 
-  /// Where runs are likely to fail, by all that were made: NextRuns::left_out.
+  /// Where runs are likely to fail, judged by all made so far: NextRuns::left_out.
   std::string left_out() {
     if (runs_.failed() == 0) return {};
     return next_runs(study_, read_table_runs(study_, tables(), NoRows::allowed), kRound).left_out;
@@ -121,10 +121,10 @@ class EngineStudy {
   fs::path folder_;
   EngineRuns runs_;
   std::size_t most_ = 0;
-  std::optional<TableRuns> asked_;  ///< what the runs asked for last were chosen by
+  std::optional<TableRuns> asked_;  ///< on which the last planned runs were based
 };
 
-/// Runs that another command, script or settings made.
+/// Notes runs made by another command, script or settings.
 void note_other_engines(EngineStudy& of, const Engine& engine, std::vector<std::string>& notes) {
   std::vector<std::string> others;
   std::error_code error;
@@ -165,7 +165,7 @@ class Rounds {
                      }};
   }
 
-  /// @return  whether it came to an end
+  /// @return  whether it finished
   bool make_all() {
     while (true) {
       const NextRuns next = of_.ask();
@@ -204,7 +204,7 @@ class Rounds {
                    .most = of_.most()});
   }
 
-  /// A few first, as long as none has given a reading.
+  /// Makes only a few first, until one has given a reading.
   std::optional<std::size_t> make(const std::vector<std::size_t>& rows) {
     std::size_t failed = 0, begun = 0;
     if (!of_.runs().has_reading()) {
@@ -247,7 +247,7 @@ class Rounds {
     const bool is_settled = of_.runs().made() < of_.most();
     facts_.ended_by = is_settled ? "settled" : "max_runs";
     if (is_settled && !next.settled.empty()) {
-      // What would narrow the answer in their place, the fit advises.
+      // The fit advises what would narrow the answer instead.
       notes_.push_back(next.settled.front());
     } else if (!is_settled && of_.most() > 0) {
       notes_.push_back(all_made_text());
@@ -281,7 +281,7 @@ class Rounds {
 
 namespace {
 
-/// The fresh runs of check_runs in [engine]; those that are lacking are made, unless none may be.
+/// The fresh runs for check_runs in [engine]; missing ones are made, unless no runs are allowed.
 /// @throws FitInterrupted
 FreshRuns fresh_runs(const EngineStudy& of, const Engine& engine, const MakeSettings& settings,
                      const std::vector<double>& values, std::size_t count) {
@@ -338,7 +338,7 @@ std::optional<StudyResult> calibrate_with_engine(const EngineRequest& request,
     return std::nullopt;
   }
   notes.insert(notes.end(), rounds.notes().begin(), rounds.notes().end());
-  // Where a whole round failed, others would fail as well.
+  // If a whole round failed, others would fail as well.
   const auto check_runs =
       rounds.facts().ended_by == kByFailures
           ? std::size_t{0}

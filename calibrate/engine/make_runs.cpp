@@ -25,19 +25,19 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kOutputFile = "output.txt";
 constexpr const char* kEndedFile = "ended.json";
 constexpr std::chrono::milliseconds kBetweenLooks{10};
-constexpr std::chrono::seconds kToEnd{5};  // for a program that is asked to end
+constexpr std::chrono::seconds kToEnd{5};  // for a program that was asked to end
 constexpr std::size_t kShownLines = 10;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Whether a run was prepared or has ended there.
+/// Whether a run was prepared or has finished there.
 bool is_of_run(const fs::path& folder) {
   return fs::exists(folder / kRunFile) || fs::exists(folder / kEndedFile);
 }
 
-/// Empty, whatever an earlier attempt left there.
+/// Empties the folder, whatever an earlier attempt left there.
 void empty_folder(const fs::path& folder) {
   if (base::is_in_use(folder / kOutputFile)) {
     base::refuse(folder, "the program of an earlier calibration is still running there",
@@ -55,7 +55,7 @@ void empty_folder(const fs::path& folder) {
   }
 }
 
-/// A program that runs.
+/// A running program.
 struct Running {
   std::size_t row = 0;
   fs::path folder;
@@ -63,7 +63,7 @@ struct Running {
   std::unique_ptr<base::ChildProcess> process;
   std::optional<Clock::time_point> asked = {};  ///< to end
 
-  /// A second time it is made to.
+  /// The second call kills it.
   void stop() {
     if (!asked) {
       process->ask_to_end();
@@ -111,7 +111,7 @@ class Maker {
   void look_at(Running& run, bool is_interrupted) {
     const auto end = run.process->end();
     if (end && is_interrupted && run.asked) {
-      run.process.reset();  // ended because it was asked to
+      run.process.reset();  // ended on request
     } else if (end) {
       finish(run, *end);
     } else if (is_interrupted || is_too_long(run)) {
@@ -138,7 +138,7 @@ class Maker {
       outcome = engine_.read_back(run.folder);
     }
     std::error_code ignored;
-    fs::create_directories(run.folder, ignored);  // which the program may have deleted
+    fs::create_directories(run.folder, ignored);  // the program may have deleted it
     const std::string failure = table_.keep(run.row, std::move(outcome));
     constexpr int kIndent = 2;
     const Json ended = {{"end", end.text()},

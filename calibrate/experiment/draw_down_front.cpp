@@ -27,28 +27,28 @@ std::optional<double> mean_deg(const std::optional<vision::OutlineFlank>& left,
   return angle_rad ? std::optional(degrees(*angle_rad)) : std::nullopt;
 }
 
-/// A picture of both boxes from the front, and where their parts are in it.
+/// A picture of both boxes from the front, and the positions of their parts in it.
 class Front {
  public:
   Front(render::Scene scene, const dem::BoxesFront& boxes)
       : boxes_(boxes), width_m_(boxes.length_m + 2 * kMargin_m) {
     const double grain_m = dem::diameter_m(scene.shapes.front());
-    // Grains that were struck level stand out of the fill by half of their length at most.
+    // Grains levelled at the top protrude from the fill by at most half their length.
     height_m_ = boxes.upper_floor_m + boxes.fill_m + grain_m + 2 * kMargin_m;
-    constexpr double kGrain_px = 40;  // more to a grain tell nothing more
+    constexpr double kGrain_px = 40;  // more per grain add nothing
     m_per_px_ = std::max(grain_m / kGrain_px, std::max(width_m_, height_m_) / kLongest_px);
     const render::PictureSize size{.width = pixels(width_m_), .height = pixels(height_m_)};
     const render::OrthographicCamera camera{
         .azimuth_rad = 0,
         .mm_per_px = 1e3 * m_per_px_,
         .middle_m = dem::Vector(0, 0, height_m_ / 2 - kMargin_m)};
-    scene.walls.clear();  // nothing but grains
+    scene.walls.clear();  // only grains
     picture_ = render::Renderer().draw(scene, camera, size, render::SilhouetteStyle{}).picture;
   }
 
   vision::Picture& picture() { return picture_; }
 
-  /// What lies between two places along the boxes, over a floor.
+  /// Measures the section between two positions along the boxes, above a floor.
   vision::OutlineAngle angle_between(double from_m, double to_m, double floor_m, double top_m) {
     const int left = column_of(from_m), right = column_of(to_m);
     const int top = static_cast<int>(std::max(0.0, std::ceil(row_of(top_m))));
@@ -59,7 +59,7 @@ class Front {
     return edge.along.empty() ? vision::OutlineAngle{} : vision::measure_outline(edge);
   }
 
-  /// A line of the part that was measured last.
+  /// A line in the section measured last.
   vision::Slope slope_of(const std::optional<vision::OutlineFlank>& flank, std::string name) const {
     if (!flank) return {.name = std::move(name), .angle_rad = {}, .line = {}};
     const auto place = [&](const vision::Point& point) {

@@ -19,8 +19,8 @@
 
 namespace repose::calibrate {
 
-// Simulated views say the same as photographs: of six small heaps seen from 18 sides, the views
-// without a flag read 1.3 degrees (sd .7) lower than all, and one heap had none.
+// Simulated views behave like photographs: for six small heaps seen from 18 directions, the
+// unflagged views read 1.3 degrees (sd .7) lower than all, and one heap had none.
 bool counts_in_mean(vision::MeasureStatus status) {
   return status != vision::MeasureStatus::refused;
 }
@@ -65,7 +65,7 @@ PictureMean mean_of_pictures(std::span<const PictureAngle> pictures,
 
 HeapViewSession::HeapViewSession(render::Scene scene, const HeapViewing& viewing)
     : scene_(std::move(scene)), views_(viewing.views) {
-  // More pixels to a grain than these are not looked at by what measures, and take time to draw.
+  // More pixels per grain are not used by the measurement, and take time to draw.
   constexpr double kGrain_px = 40;
   constexpr render::PictureSize kLargest{.width = 1920, .height = 1080};
   far_ = render::fitted_all_around({}, scene_, kLargest);
@@ -117,7 +117,7 @@ HeapView HeapViewSession::measure(render::Renderer& renderer, int view,
 }
 
 // Why kHeapViews is 9: over six small heaps the mean of 9 views was .1 degrees (sd .3, worst .4)
-// from that of 18, where these heaps scatter by 4 degrees.
+// from that of 18, while these heaps scatter by 4 degrees.
 std::vector<HeapView> measure_views(const HeapViewSession& session, int threads,
                                     const std::function<bool(double fraction)>& report) {
   std::vector<HeapView> views(static_cast<std::size_t>(session.views()));

@@ -16,19 +16,19 @@
 #include <nlohmann/json.hpp>
 
 /// A struct is described once, by `fields(io, value)`, which names each of its fields; JsonWriter
-/// and JsonReader are the two ways to follow the description.
+/// and JsonReader both follow this description.
 namespace repose::calibrate {
 
 using Json = nlohmann::ordered_json;
 
-/// What stands for places in a result: `fields` sets and uses them.
+/// Names that replace indices in a result: set and used by `fields`.
 struct NamesInUse {
   std::vector<std::string> parameters;
   std::vector<std::string> observables;
   std::vector<std::string> factors;
 };
 
-/// A field as `Io` needs it: to be written, or to be read into.
+/// A field's type as `Io` needs it, for writing or reading.
 template <typename Io, typename T>
 using Held = typename Io::template Field<T>;
 
@@ -47,13 +47,13 @@ inline constexpr bool kIsArray<std::array<T, kSize>> = true;
 /// Two numbers, written as a list of them.
 template <typename T>
 inline constexpr bool kIsPair = false;
-/// Numbers by name; those that may be none are null then.
+/// Numbers by name; std::nullopt becomes null.
 template <typename T>
 inline constexpr bool kIsNamed = std::is_same_v<T, std::map<std::string, double>> ||
                                  std::is_same_v<T, std::vector<std::pair<std::string, double>>> ||
                                  std::is_base_of_v<std::map<std::string, std::optional<double>>, T>;
 
-/// Makes an object of the fields that it is told.
+/// Builds a JSON object from the described fields.
 class JsonWriter {
  public:
   template <typename T>
@@ -68,20 +68,20 @@ class JsonWriter {
   void operator()(const std::string& key, const T& value) {
     json_[key] = written(value);
   }
-  /// An object of its own, of what `describe` names.
+  /// A nested object of the fields that `describe` names.
   template <typename Describe>
   void object(const std::string& key, const Describe& describe) {
     JsonWriter inner(names_);
     describe(inner);
     json_[key] = inner.take();
   }
-  /// Follows from other fields: for readers of the file alone.
+  /// Derived from other fields; only for readers of the file.
   void derived(const std::string& key, std::optional<double> value) { (*this)(key, value); }
-  /// Text that is null when there is none.
+  /// Text; null if empty.
   void text_or_null(const std::string& key, const std::string& text) {
     json_[key] = text.empty() ? Json(nullptr) : Json(text);
   }
-  /// Whether a field that may be absent is to be described.
+  /// Whether an optional field is to be described.
   bool has(const std::string&, bool is_there) const { return is_there; }
   void place(const std::string& key, const std::vector<std::string>& names, std::size_t place) {
     json_[key] = names.at(place);
@@ -120,20 +120,20 @@ class JsonWriter {
   Json json_ = Json::object();
 };
 
-/// A field that is absent or not what it must be; what() begins with its place.
+/// A missing or invalid field; what() begins with its path.
 class WrongField : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Reads an object field by field. Keys that nobody asks for are passed over.
+/// Reads an object field by field. Unknown keys are ignored.
 class JsonReader {
  public:
   template <typename T>
   using Field = T;
   static constexpr bool kReads = true;
 
-  /// @param path  where the object is: "observables[2]", or empty
+  /// @param path  location of the object: "observables[2]", or empty
   JsonReader(const Json& json, std::string path, NamesInUse& names)
       : json_(json), path_(std::move(path)), names_(names) {
     if (!json.is_object()) refuse(path_, "must be an object");
@@ -254,7 +254,7 @@ class JsonReader {
   NamesInUse& names_;
 };
 
-/// A struct without places as JSON, and read from it.
+/// A struct without index fields as JSON, and read from it.
 template <typename T>
 Json json_of_fields(const T& value) {
   NamesInUse none;
@@ -262,7 +262,7 @@ Json json_of_fields(const T& value) {
   fields(writer, value);
   return writer.take();
 }
-/// @throws WrongField  a field is absent or not what it must be.
+/// @throws WrongField  a field is missing or invalid.
 template <typename T>
 void read_fields(const Json& json, T& value) {
   NamesInUse none;
@@ -270,14 +270,14 @@ void read_fields(const Json& json, T& value) {
   fields(reader, value);
 }
 
-/// The items of `values` as fields of those names.
+/// The items of `values` as fields with these names.
 template <typename Io, typename Values>
 void spread(Io& io, const std::vector<std::string>& names, Values& values) {
   if constexpr (Io::kReads) values.resize(names.size());
   for (std::size_t k = 0; k < values.size(); ++k) io(names.at(k), values[k]);
 }
 
-/// The same in an object of their own.
+/// The same in a nested object.
 template <typename Io, typename Values>
 void by_name(Io& io, const std::string& key, const std::vector<std::string>& names,
              Values& values) {

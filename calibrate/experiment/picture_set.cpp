@@ -15,7 +15,7 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kOutlying = 3.5;
-constexpr double kMadToSd = 1.4826;  // of normal values
+constexpr double kMadToSd = 1.4826;  // for a normal distribution
 constexpr std::size_t kFewestForOutliers = 3;
 
 double middle_of(std::vector<double> values) {
@@ -28,7 +28,7 @@ bool has_angle(const SetPicture& picture) {
   return picture.angle_deg && counts_in_mean(picture.status);
 }
 
-/// Places of the pictures of each heap, in the order of their first ones.
+/// Indices of each heap's pictures; heaps in the order of their first pictures.
 using Heaps = std::vector<std::vector<std::size_t>>;
 
 template <typename Counts>
@@ -67,7 +67,7 @@ std::optional<Summary> summary_of(const std::vector<double>& means) {
   return means.empty() ? std::nullopt : std::optional(summarise(means));
 }
 
-/// What pictures of one heap differ by, and what is uncertain of them all.
+/// Scatter among pictures of one heap, and the uncertainty common to all.
 void count_uncertainty_of(std::span<const SetPicture> pictures, const Heaps& heaps,
                           PictureSet& set) {
   double squares = 0;

@@ -19,15 +19,16 @@
 namespace repose::calibrate {
 namespace {
 
-/// Degrees, millimetres and counts of a bench are far less. A fit does not end with such numbers.
+/// Degrees, millimetres and counts of a bench are far smaller. A fit does not converge with such
+/// numbers.
 constexpr double kMaxReading = 1e9;
 
 bool is_possible(double reading) { return !(std::abs(reading) > kMaxReading); }
 
 constexpr const char* kNoHeap = "no_heap";
 
-/// Takes out what earlier versions wrote for a heap without an angle: 0, which no line that is
-/// measured has, since level ones are none, and of a layer what its edge gave.
+/// Removes what earlier versions wrote for a heap without an angle: 0, which no measured line has,
+/// since level ones do not count; and, for a layer, the angle of its edge.
 void drop_angles_of_none(RunResult& run) {
   const auto is_layer = run.readings.number(kNoHeap);
   if (!is_layer) return;
@@ -42,7 +43,7 @@ void drop_angles_of_none(RunResult& run) {
   run.other_deg.clear();
 }
 
-/// What holds for each run that was made.
+/// Invariants of every completed run.
 bool holds_together(const RunResult& run) {
   const auto is_number = [](const auto& reading) {
     return is_possible(reading.second.value_or(0));
@@ -214,7 +215,7 @@ std::map<std::string, double> readings_of(const RunResult& run) {
 
 std::string warning_of_hops(dem::RollingModel rolling, const dem::ClumpShape& grain,
                             double hop_mm) {
-  constexpr double kHop = .01;  // in reaches of the grain; a ball loses 3 % then
+  constexpr double kHop = .01;  // in bounding radii of the grain; a ball then loses 3 %
   if (rolling != dem::RollingModel::elastic_plastic) return {};
   if (!(hop_mm > kHop * kMmPerM * grain.reach_m())) return {};
   return fmt::format(
@@ -248,7 +249,7 @@ RunResult run_in(const std::string& text) {
     drop_angles_of_none(run);
     if (run.failure.empty()) run.failure = no_heap_reason(run);
   } catch (const WrongField&) {
-    run = {};  // which does not hold together
+    run = {};  // fails holds_together()
   }
   if (fingerprint != fingerprint_of(json) || !json.contains(kSimulated) || !holds_together(run)) {
     throw base::InputError({.value = "it was changed since it was written"});

@@ -14,89 +14,91 @@
 
 namespace repose::calibrate {
 
-/// One run of one experiment: what was simulated, what the engine gave, and what its pictures
-/// showed. Stores, the fit, tables and reports all take it from here.
+/// One run of one experiment: what was simulated, the engine's results, and the measurements of its
+/// pictures. Used by stores, the fit, tables and reports.
 struct RunResult : dem::Repeat {
-  std::string simulated = "null";  ///< what it is a run of, as description_of()
-  /// Pictures of a heap; empty: none were asked for, or could be drawn.
+  std::string simulated = "null";  ///< what was simulated, as description_of()
+  /// Pictures of a heap; empty: none were requested, or none could be drawn.
   std::vector<HeapView> views;
-  std::optional<dem::LevelCamera> camera;  ///< that took them; none: from far away
-  /// Of a heap, as `value` but by the other definitions of base/angle_definition.h, by name.
+  std::optional<dem::LevelCamera> camera;  ///< that took them; std::nullopt: from far away
+  /// For heaps: like `value`, but by the other definitions of base/angle_definition.h, keyed by
+  /// name.
   std::map<std::string, double> other_deg;
-  /// The definition by which its angle is asked for; empty: the usual one. All are kept: it is read
-  /// anew by another without being simulated again.
+  /// The requested definition of its angle; empty: the default. All are saved, so it can be read by
+  /// another one without simulating again.
   std::string definition;
-  /// Why there is nothing to read ("the grains stay in the tube"). What else is known of the run,
-  /// such as the height of a layer, stays in `readings`.
+  /// Why there is no reading ("the grains stay in the tube"). Other results, such as the height of
+  /// a layer, remain in `readings`.
   std::string failure;
   std::string picture_error;           ///< why this machine could not draw
-  double wall_s = 0;                   ///< of the simulation, in all calls that worked on it
-  std::optional<double> trajectory_s;  ///< between the frames of its film; none: there is no film
+  double wall_s = 0;                   ///< of the simulation, over all calls that worked on it
+  std::optional<double> trajectory_s;  ///< between the frames of its film; std::nullopt: no film
 };
 
-/// Measures a heap as run_heap() or resume_heap() gives it: takes its envelopes, and adds their
-/// angle in degrees as its value, by the other definitions too, and the readings "base_radius_mm",
-/// "between_views_deg" (scatter between directions), "angle_xz_deg" (seen along y) and
-/// "inner_window_deg" (as the value, but fitted from 30 to 70 % of the height instead of 20 to 80:
-/// low heaps are hollow at the foot, and the stretch moves their angle). A layer ("no_heap" 1) has
-/// none of these numbers.
+/// Measures a heap from run_heap() or resume_heap(): adds the angle of its envelopes in degrees as
+/// its value, also by the other definitions, and the readings "base_radius_mm", "between_views_deg"
+/// (scatter between directions), "angle_xz_deg" (seen along y) and "inner_window_deg" (as the
+/// value, but fitted from 30 to 70 % of the height instead of 20 to 80: low heaps are concave at
+/// the foot, so their angle depends on the window). A layer ("no_heap" 1) has none of these
+/// numbers.
 void add_position_angle(RunResult& heap);
 
-/// Why the grains of a heap experiment make none: they spread to a layer ("no_heap" among the
-/// readings), or stand so that less than half of their sides slope (no value). Empty: they do, or
-/// the run is of another experiment.
+/// Why the grains of a heap experiment do not form a heap: they spread to a layer ("no_heap" among
+/// the readings), or fewer than half of their flanks slope (no value). Empty: they do, or it is
+/// another experiment.
 std::string no_heap_reason(const RunResult& run);
 
-/// It was measured by the definition. Runs without views or a value lack nothing.
+/// Whether it was measured by the definition; also true for runs without views or a value.
 bool has_definition(const RunResult& run, const std::string& definition);
 
-/// Its pictures are those that are asked for.
+/// Whether its pictures are as requested.
 bool is_pictured_as(const RunResult& run, const HeapViewing& asked);
 
-/// A heap's value is its angle in pictures where at least half of the views could be measured: it
-/// is what a photograph of the bench is compared with. Else, and of all other experiments, it is
-/// what the engine gives.
+/// A heap's value is its angle in pictures if at least half of the views could be measured:
+/// photographs of the bench are compared with it. Otherwise, and for all other experiments, it is
+/// the engine's value.
 ///
-/// Each run decides for itself. A rule over all repeats, that one bad heap turns the others to
-/// positions too, would make a run's value depend on which others were asked for with it: the same
-/// run would count with one number in a mean of five, with another in a mean of ten, and with a
-/// third in a fit. The price is that a mean may be of both kinds, which differ by a degree or so:
-/// each run says which it is ("from_pictures"), and a mean of both is warned of.
+/// This is decided for each run separately. If one bad heap switched all repeats to positions, a
+/// run's value would depend on the other runs requested with it: the same run would have one value
+/// in a mean of five, another in a mean of ten, and a third in a fit. The price is that a mean may
+/// mix both kinds, which differ by a degree or so: each run records its kind ("from_pictures"), and
+/// a mixed mean gives a warning.
 bool is_from_pictures(const RunResult& run);
-/// Its angle by its definition in all views, and from where the grains lie.
+/// Its angle by its definition: over all views, and from the positions of its grains.
 PictureMean picture_mean(const RunResult& run);
 std::optional<double> position_value(const RunResult& run);
-/// None of a run with a failure.
+/// std::nullopt for a run with a failure.
 std::optional<double> value_of(const RunResult& run);
-/// Of a heap, its value by each definition that it allows, in the order of
-/// base/angle_definition.h; of other experiments none.
+/// For a heap, its value by each definition that it allows, in the order of
+/// base/angle_definition.h; empty for other experiments.
 std::vector<std::pair<std::string, double>> values_by_definition(const RunResult& run);
-/// Means of that over runs, by the definitions that all of them allow.
+/// Means of these over runs, by the definitions that all runs allow.
 std::vector<std::pair<std::string, double>> means_by_definition(const std::vector<RunResult>& runs);
 
-/// The standard deviation s sqrt(1 - 1/n) by which the angle in one view scatters within a heap
-/// more than the mean of n views that scatter by s.
+/// The additional scatter within a heap, as standard deviation s sqrt(1 - 1/n), of the angle in one
+/// view compared with the mean of n views whose standard deviation is s.
 inline constexpr const char* kOneViewScatter = "sd_of_one_view_deg";
 
-/// All readings as a fit or a table has them, those that do not exist left out: the engine's,
-/// "value", "timestep_s", and of a pictured run "angle_from_positions_deg", "views_measured",
-/// "views_flagged", "from_pictures" (0 or 1), "angle_from_pictures_deg" and
-/// "sd_between_views_deg", and kOneViewScatter.
+/// All readings for fits and tables, without missing ones: the engine's, "value", "timestep_s", and
+/// for a pictured run "angle_from_positions_deg", "views_measured", "views_flagged",
+/// "from_pictures" (0 or 1), "angle_from_pictures_deg" and "sd_between_views_deg", and
+/// kOneViewScatter.
 std::map<std::string, double> readings_of(const RunResult& run);
 
-/// What must be known of rolls with elastic-plastic rolling friction whose grain hopped, at the
-/// highest by `hop_mm`: each landing takes speed, the more of them the higher the restitution
-/// (dem/THEORY.md, Rolling resistance). Empty where it hardly hopped, and for other laws.
+/// A warning for rolls with elastic-plastic rolling friction whose grain hopped, by at most
+/// `hop_mm`: each landing costs speed, and higher restitution means more landings (dem/THEORY.md,
+/// Rolling resistance). Empty if it hardly hopped, and for other laws.
 std::string warning_of_hops(dem::RollingModel rolling, const dem::ClumpShape& grain, double hop_mm);
 
-/// As JSON with a fingerprint, to be stored or sent to another process: every number comes back to
-/// the last bit, and the same run gives the same bytes. The definition is the reader's, not kept.
+/// As JSON with a fingerprint, to be stored or sent to another process: every number is restored to
+/// the last bit, and the same run gives the same bytes. The definition is not saved: the reader
+/// chooses it.
 std::string text_of(const RunResult& run);
 
-/// Versions up to 8 of the simulator wrote 0 for each angle that a heap does not have, and gave
-/// layers theirs: such runs come back with a failure.
-/// @throws base::InputError  the text is not as it was written, or has numbers that no run
-/// gives: what is wrong with it.
+/// Simulator versions up to 8 wrote 0 for missing angles of a heap, and gave layers an angle: such
+/// runs are returned with a failure.
+/// @throws base::InputError  the text was changed, or has numbers that no run gives; the message
+///   says what is wrong.
 RunResult run_in(const std::string& text);
 
 }  // namespace repose::calibrate

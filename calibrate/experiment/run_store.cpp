@@ -32,7 +32,7 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, ignored);
 }
 
-/// Whether a name in the folder's store is one that `is_meant`.
+/// Whether the folder's store has a name for which `is_meant` is true.
 template <typename IsMeant>
 bool has_stored(const fs::path& folder, const IsMeant& is_meant) {
   std::error_code error;
@@ -126,7 +126,7 @@ RestartRecord restart_in(const std::string& text, const std::string& description
   }
 }
 
-/// Any thread may find something.
+/// Any thread may add remarks.
 struct RunStore::Remarks {
   std::mutex mutex;
   std::set<std::string> lines;

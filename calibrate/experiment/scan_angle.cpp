@@ -18,7 +18,7 @@ namespace {
 
 double azimuth_rad(int view) { return std::numbers::pi * view / kHeapViews; }
 
-/// What the scan itself leaves open counts in the views' mean.
+/// Adds the scan's own uncertainty, flag and warnings to the views' mean.
 void add_scan(const vision::ReposeAngle& scan, vision::ReposeAngle& seen) {
   if (seen.status == vision::MeasureStatus::refused) return;
   for (auto* width : {&seen.uncertainty_rad, &seen.own_uncertainty_rad}) {

@@ -17,9 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a kill at any moment costs at most, but for the time to the next look.
+/// Maximum work lost by a kill, apart from the time until the next check.
 constexpr std::chrono::seconds kBetweenRestarts{60};
-/// Of the whole work, where there are pictures to be measured.
+/// Of the whole work, if there are pictures to measure.
 constexpr double kSimulationFraction = .95;
 
 double seconds_since(Clock::time_point start) {
@@ -45,7 +45,7 @@ class ExperimentRunner {
   }
 
  private:
-  /// From the folder, if nothing of it would have to be simulated again.
+  /// From the folder, if nothing has to be simulated again.
   std::optional<RunResult> reusable() const {
     if (options_.folder == nullptr) return std::nullopt;
     std::optional<RunResult> run = options_.folder->find(spec_, seed_);
@@ -90,7 +90,7 @@ class ExperimentRunner {
            spec_.simulator->can_resume();
   }
 
-  /// One that has no film, where one is asked for, is of no use.
+  /// A restart without the requested film is useless.
   std::optional<SavedRestart> usable_restart() const {
     if (!keeps_restarts()) return std::nullopt;
     std::optional<SavedRestart> restart = options_.folder->find_restart(spec_, seed_);
@@ -150,7 +150,7 @@ class ExperimentRunner {
     run.readings["lower_angle_deg"] = front.lower_angle_deg;
   }
 
-  /// The state first: a run is there only when all of it is.
+  /// Saves the state first: a run only exists once all of it does.
   void save(const RunResult& run) const {
     if (options_.folder == nullptr) return;
     if (run.state && (options_.saves_state || spec_.entry().is_pictured)) {
@@ -194,7 +194,7 @@ class ExperimentRunner {
 RunResult simulate_experiment(const RunSpec& spec, std::uint64_t seed,
                               const SimulateOptions& options) {
   RunResult run = ExperimentRunner(spec, seed, options).run();
-  run.state.reset();  // saved where it was asked for
+  run.state.reset();  // saved if requested
   return run;
 }
 

@@ -15,20 +15,21 @@ namespace repose::calibrate {
 
 struct RunSpec;
 
-/// A run that is to be made.
+/// A run to be made.
 struct RunCall {
   const RunSpec& spec;
   std::uint64_t seed = 0;
-  /// Its own, for what another program reads and writes meanwhile; empty: a temporary one.
+  /// The run's own folder, for files that another program reads and writes; empty: a temporary one.
   std::filesystem::path folder = {};
   std::function<bool(double fraction)> goes_on;  ///< false interrupts it
-  /// Of one that can_resume() only: what it hands out on its way, and where it goes on from.
+  /// Only if the simulator can_resume(): receives its intermediate results, and where it resumes
+  /// from.
   const dem::RunRecord& record;
   const dem::Restart* from = nullptr;
 };
 
-/// What makes runs of experiments: our own engine, or another program (calibrate/simulators). All
-/// else is the same for all of them: stores, pictures, the fit.
+/// Makes runs of experiments: our own engine, or another program (calibrate/simulators). Stores,
+/// pictures and the fit are the same for all simulators.
 class Simulator {
  public:
   Simulator() = default;
@@ -38,29 +39,29 @@ class Simulator {
   Simulator(Simulator&&) = delete;
   Simulator& operator=(Simulator&&) = delete;
 
-  /// For people: "LIGGGHTS-PUBLIC 3.8.0, 2 processes". Empty: our own engine.
+  /// For display: "LIGGGHTS-PUBLIC 3.8.0, 2 processes". Empty: our own engine.
   virtual std::string title() const { return {}; }
-  /// What its runs depend on beside spec and seed, as JSON; runs of other simulators are never
-  /// taken for its own. Empty: our own engine, whose version every run has.
+  /// What its runs depend on besides spec and seed, as JSON; runs of other simulators never count
+  /// as its own. Empty: our own engine, whose version is in every run.
   virtual std::string identity(const RunSpec& /*spec*/) const { return {}; }
   /// Cores that a run occupies.
   virtual int processes(const dem::ExperimentEntry& /*entry*/) const { return 1; }
-  /// It can go on from where it was interrupted, and hands out films.
+  /// Whether it can resume interrupted runs, and records films.
   virtual bool can_resume() const { return true; }
-  /// What a run ends with is a state, to look at.
+  /// Whether a run ends with a state that can be viewed.
   virtual bool has_state(const dem::ExperimentEntry& /*entry*/) const { return true; }
-  /// A run has this reading, beside its value.
+  /// Whether a run has this reading, besides its value.
   virtual bool has_reading(const dem::ExperimentEntry& /*entry*/,
                            const std::string& /*name*/) const {
     return true;
   }
-  /// What it cannot simulate.
+  /// The parts of a spec that it cannot simulate.
   virtual std::vector<base::Fault> refusals(const RunSpec& /*spec*/) const { return {}; }
-  /// What its runs do otherwise than ours, a sentence each.
+  /// How its runs differ from ours, a sentence each.
   virtual std::vector<std::string> differences(const RunSpec& /*spec*/) const { return {}; }
 
-  /// @throws dem::NoMeasurement, dem::UnstableRun, dem::Interrupted, base::InputError  as the
-  /// experiments of dem/experiment.
+  /// @throws dem::NoMeasurement, dem::UnstableRun, dem::Interrupted, base::InputError  as
+  ///   experiments in dem/experiment.
   virtual dem::Repeat run(const RunCall& call) const = 0;
 };
 

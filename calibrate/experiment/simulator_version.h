@@ -2,9 +2,9 @@
 
 namespace repose::calibrate {
 
-/// Which simulator made a run: the engine, the experiments, how a heap is drawn and how the picture
-/// is measured. Runs of another version are not taken for those of this one. To be raised whenever
-/// what a simulation gives has changed; a test (SimulatorVersion) sees to it.
+/// Version of what makes a run: the engine, the experiments, how a heap is drawn and how the
+/// picture is measured. Runs of other versions are not reused. Must be raised whenever the results
+/// of a simulation change; a test (SimulatorVersion) enforces it.
 inline constexpr int kSimulatorVersion = 12;
 
 }  // namespace repose::calibrate

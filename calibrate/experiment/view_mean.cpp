@@ -22,7 +22,7 @@ bool counts(const vision::ReposeAngle& view) {
   return counts_in_mean(view.status) && view.angle_rad.has_value();
 }
 
-/// What the views that count have of a number.
+/// A number's values over the views that count.
 template <typename Number>
 std::vector<double> all_of(Views views, const Number& number) {
   std::vector<double> values;
@@ -33,7 +33,7 @@ std::vector<double> all_of(Views views, const Number& number) {
   return values;
 }
 
-/// Mean and Student's half-width of what the views have of a number; none of none.
+/// Mean and Student-t half-width of a number over the views; std::nullopt if none has it.
 template <typename Number>
 std::optional<Summary> summary_of(Views views, const Number& number) {
   const std::vector<double> values = all_of(views, number);
@@ -47,7 +47,8 @@ std::optional<double> mean_of(Views views, const Number& number) {
   return summary ? std::optional(summary->mean) : std::nullopt;
 }
 
-/// The median of the views' own half-widths, and Student's of their mean, as two parts.
+/// The median of the views' own half-widths and the Student-t half-width of their mean, combined in
+/// quadrature.
 double half_width(const Summary& summary, std::vector<double> own) {
   double common = 0;
   if (!own.empty()) {
@@ -83,7 +84,7 @@ vision::Flank flank_of(Views views, vision::Flank vision::ReposeAngle::*side) {
   return flank;
 }
 
-/// What the views warn of, each once, with the number of views that do.
+/// The views' warnings, each once, with the number of views that have it.
 std::vector<vision::Warning> warnings_of(Views views) {
   std::vector<vision::Warning> warnings;
   std::map<std::string, int> number;

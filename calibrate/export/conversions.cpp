@@ -57,7 +57,7 @@ Conversion rolling(ExportTarget target, const std::string& pair, Partner partner
   return converted;
 }
 
-/// By what grains touch: "wall", "tube" and so on, "particle".
+/// Coefficients by what grains touch: "wall", "tube" and so on, "particle".
 std::vector<std::pair<std::string, const dem::PairCoefficients*>> pairs_of(
     const ExportFacts& facts) {
   const dem::Model& model = facts.study().model;

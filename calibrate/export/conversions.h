@@ -10,21 +10,22 @@
 
 namespace repose::calibrate {
 
-/// What becomes of each coefficient that the study's experiments need: walls first.
+/// The conversion of each coefficient that the study's experiments need: walls first.
 std::vector<Conversion> conversions_of(const ExportFacts& facts, ExportTarget target);
 
-/// The exported value of one: `conversions` as above. NaN for a pair that is not needed.
+/// The exported value of one coefficient: `conversions` as above. NaN for a pair that is not
+/// needed.
 double exported(const std::vector<Conversion>& conversions, const std::string& coefficient);
 
-/// What the target's coefficient is between two values of ours, the smaller first.
+/// The target's coefficient at two values of ours, the smaller first.
 std::pair<double, double> exported_bounds(const ExportFacts& facts, ExportTarget target,
                                           const Conversion& conversion,
                                           std::pair<double, double> ours);
 
-/// What a pair is called: "grain with wall" for "contact.particle_wall.restitution".
+/// The name of a pair: "grain with wall" for "contact.particle_wall.restitution".
 std::string pair_text(const std::string& coefficient);
 
-/// What keeps a conversion from being written, a line each; empty: nothing does.
+/// Reasons why conversions cannot be written, a line each; empty: none.
 std::vector<base::Fault> refusals(const ExportFacts& facts, const ExportRequest& request,
                                   const std::vector<Conversion>& conversions);
 

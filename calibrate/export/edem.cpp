@@ -15,7 +15,7 @@ double shear_modulus_pa(const dem::Material& material) {
   return material.young_modulus_pa / (2 * (1 + material.poisson_ratio));
 }
 
-/// As much of a number that was worked out as anybody wants to type.
+/// As many digits of a computed number as anybody wants to type.
 std::string six_digits(double value) { return fmt::format("{:.6g}", value); }
 
 const char* edem_rolling_name(dem::RollingModel model) {
@@ -52,7 +52,7 @@ EdemRolling rolling_in_edem(dem::RollingModel model) {
       "the particle's own spin"};
 }
 
-/// Of the damper of `elastic_plastic`, as a fraction of the critical one: dem/engine/rolling.h.
+/// Damping of `elastic_plastic`, as a fraction of critical: dem/engine/rolling.h.
 constexpr double kRollingDampingRatio = .3;
 
 void add_interaction(const std::string& pair, const std::string& other,
@@ -69,7 +69,7 @@ void add_interaction(const std::string& pair, const std::string& other,
   }
 }
 
-/// What drops are made again from.
+/// Data for repeating the drops.
 void add_drops(const dem::DropProtocol& protocol, DeckFields& fields) {
   DeckFields& drop = fields.add_section("DROP");
   drop.set("HEIGHT", protocol.height_m);
@@ -77,7 +77,7 @@ void add_drops(const dem::DropProtocol& protocol, DeckFields& fields) {
   if (protocol.low_height_m) drop.add_section("LOW").set("LOW_HEIGHT", *protocol.low_height_m);
 }
 
-/// What a heap is rebuilt from.
+/// Data for rebuilding a heap.
 void add_heap(const ExportFacts& facts, DeckFields& fields) {
   const auto& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double stiffness = facts.stiffness(dem::experiment_of<dem::HeapProtocol>());
@@ -176,8 +176,8 @@ ExportedFile values_table(const ExportFacts& facts, const Conversions& conversio
   return {.name = "values.csv", .text = text};
 }
 
-/// To be pasted: Altair, EDEM documentation, "Add Multi-Sphere Particles". The spheres are about
-/// the centre of mass along the principal axes, as it wants them.
+/// For pasting: Altair, EDEM documentation, "Add Multi-Sphere Particles". Spheres are relative to
+/// the centre of mass along the principal axes, as required there.
 ExportedFile sphere_table(const dem::ClumpShape& grain) {
   std::string text = "Position X\tPosition Y\tPosition Z\tPhysical Radius\n";
   for (const dem::ClumpSphere& sphere : grain.spheres) {

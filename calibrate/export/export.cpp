@@ -65,7 +65,7 @@ std::vector<BenchMean> bench_means_of(const StudyResult& result) {
 
 namespace {
 
-/// Values that are no more than a place within the bounds.
+/// Warnings for values that the measurements did not determine.
 std::vector<std::string> warnings_of(const ExportFacts& facts) {
   std::vector<std::string> warnings;
   for (const FittedValue& value : facts.fitted()) {
@@ -83,7 +83,7 @@ std::vector<std::string> warnings_of(const ExportFacts& facts) {
   return warnings;
 }
 
-/// With the values of the set that is asked for.
+/// Replaces the values by those of the requested set.
 std::vector<FittedValue> of_set(std::vector<FittedValue> fitted,
                                 const std::vector<std::vector<double>>& sets, std::size_t number) {
   const std::size_t known = std::max<std::size_t>(1, sets.size());

@@ -17,7 +17,7 @@ struct StudyResult;
 
 struct TargetEntry;
 
-/// Another program that studies are exported to (target_entry.h).
+/// A program that studies are exported to (target_entry.h).
 using ExportTarget = const TargetEntry*;
 
 ExportTarget liggghts_target();
@@ -28,30 +28,30 @@ ExportTarget edem_target();
 /// All of them.
 std::array<ExportTarget, 4> export_targets();
 
-/// What the command line and the folders call it.
+/// Its name on the command line and in folders.
 std::string name_of(ExportTarget target);
-/// In a few words, what is written for it.
+/// What is written for it, in a few words.
 std::string summary_of(ExportTarget target);
-/// Null where there is none of that name.
+/// Null if there is none of that name.
 ExportTarget export_target_named(std::string_view name);
 
-/// A coefficient that was found.
+/// A fitted coefficient.
 struct FittedValue {
   std::string name = {};  ///< "contact.particle_wall.restitution"
   double value = 0;
-  double low = 0;  ///< of the 95 % interval; both 0: there is none
+  double low = 0;  ///< of the 95 % interval; both 0: no interval
   double high = 0;
-  std::string verdict = {};  ///< "determined", "one-sided", "undetermined"; empty: nothing was said
+  std::string verdict = {};  ///< "determined", "one-sided", "undetermined"; empty: none
 };
 
-/// The published method's are single points without intervals.
+/// Those of the published method are points without intervals.
 std::vector<FittedValue> fitted_values(const StudyResult& result);
 
-/// The fitted values and the sets that fit as well, numbered from 1: the values of one belong
+/// The fitted values and the equally good sets, numbered from 1: the values of a set belong
 /// together. Each in the order of fitted_values().
 std::vector<std::vector<double>> exported_sets(const StudyResult& result);
 
-/// What the bench gave for an experiment.
+/// The bench's result for an experiment.
 struct BenchMean {
   std::string experiment = {};  ///< by name
   std::string unit = {};
@@ -59,20 +59,20 @@ struct BenchMean {
   double uncertainty = 0;  ///< standard uncertainty of the mean
 };
 
-/// Of the experiments whose own reading was measured and fitted; the published method's have no
-/// uncertainty, and are left out.
+/// Of the experiments whose own reading was measured and fitted; those of the published method have
+/// no uncertainty and are omitted.
 std::vector<BenchMean> bench_means_of(const StudyResult& result);
 
-/// How well the target's law stands for ours.
+/// How well the target's law represents ours.
 enum class Fidelity {
   exact,        ///< the same equation
-  close,        ///< the same force or torque while it slides or rolls; another way there
-  approximate,  ///< another law, which gives the same only in the mean or in part of the motions
+  close,        ///< the same force or torque while it slides or rolls, but built up differently
+  approximate,  ///< another law, equal only on average or for some motions
 };
 
 std::string name_of(Fidelity fidelity);
 
-/// What becomes of one coefficient.
+/// The conversion of one coefficient.
 struct Conversion {
   std::string coefficient = {};  ///< "contact.particle_wall.rolling_friction"
   double value = 0;              ///< ours
@@ -97,29 +97,29 @@ struct StudyExport {
 
 struct ExportRequest {
   ExportTarget target = liggghts_target();
-  /// Otherwise a coefficient whose conversion is approximate is refused.
+  /// If false, coefficients whose conversion is only approximate are refused.
   bool takes_approximate = false;
-  /// Of the equally good sets, the one whose values are exported; 1 is the best.
+  /// The equally good set whose values are exported; 1 is the best.
   std::size_t set_number = 1;
 };
 
 /// Decks for the material, the contacts, the clump and each experiment of the study, and a
-/// README.txt that says what became of each coefficient.
-/// @param study   as simulated; coefficients that were sought are NaN in it, or have their value
+/// README.txt that explains how each coefficient was converted.
+/// @param study  as simulated; free coefficients are NaN in it, or have their value
 /// @param fitted  names and intervals, and the values unless there are sets
-/// @param sets    of exported_sets(): request.set_number says which one; or none
-/// @param bench   what further runs of the target are calibrated to
-/// @throws base::InputError  there is no set of that number; or a coefficient without a value,
-///   or one that the target cannot have or has only approximately: all of them, a line each.
+/// @param sets  from exported_sets(), chosen by request.set_number; or empty
+/// @param bench  measurements that further runs of the target are calibrated to
+/// @throws base::InputError  there is no set of that number; or coefficients that have no value, or
+///   that the target cannot represent or only approximately: all of them, a line each.
 StudyExport export_study(const dem::Study& study, const dem::ClumpShape& grain,
                          const std::vector<FittedValue>& fitted, const ExportRequest& request,
                          const std::vector<std::vector<double>>& sets = {},
                          const std::vector<BenchMean>& bench = {});
 
-/// Writes each file whole or not at all, in place of those of an earlier export; makes the folder.
-/// @param is_ours  files of these names that are there are of an earlier version of repose
-/// @throws base::InputError  the folder or a file cannot be written, or files of a user's
-///   would be lost. Nothing is written then.
+/// Writes each file atomically, replacing those of an earlier export; creates the folder.
+/// @param is_ours  existing files of these names are from an earlier version of repose
+/// @throws base::InputError  the folder or a file cannot be written, or a user's files would be
+///   lost; then nothing is written.
 void write_export(const std::filesystem::path& folder, const std::vector<ExportedFile>& files,
                   bool is_ours = false);
 

@@ -25,9 +25,9 @@ namespace repose::calibrate {
 
 namespace {
 
-/// How far short of sliding the plate begins to turn, degrees.
+/// The plate begins to turn this far below the sliding angle, degrees.
 constexpr double kTiltLead_deg = 3;
-/// A grain without rolling friction that its shape alone brings to rest.
+/// For a grain without rolling friction, brought to rest only by its shape.
 constexpr double kLongestFlat_m = 20;
 
 TouchingPose touching(const dem::ClumpShape& shape, const dem::Quaternion& orientation) {
@@ -270,7 +270,7 @@ std::string steps(double time_s, double timestep_s) {
 
 int grains_in_heap(const ExportFacts& facts) {
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
-  constexpr double kPacked = .58;  // share of a tube some grains across that poured grains fill
+  constexpr double kPacked = .58;  // fraction filled by poured grains in a tube a few grains across
   const double area = std::numbers::pi / 4 * protocol.tube_diameter_m * protocol.tube_diameter_m;
   const double fitting = kPacked * area * protocol.tube_height_m / facts.grain().volume_m3;
   return protocol.grains.value_or(static_cast<int>(fitting));
@@ -283,7 +283,7 @@ double lift_s(const dem::HeapProtocol& protocol) {
 
 namespace {
 
-/// Other programs do not average the first and last step of an impact as ours does.
+/// Unlike ours, other programs do not average the first and last step of an impact.
 constexpr double kTimestepFraction = .5;
 
 }  // namespace

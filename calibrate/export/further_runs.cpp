@@ -20,7 +20,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// Coefficients that were sought and that some experiment of the target has.
+/// Fitted coefficients that are used in some experiment of the target.
 std::vector<const Conversion*> sought(const ExportFacts& facts,
                                       const std::vector<Conversion>& conversions,
                                       bool with_determined) {
@@ -38,7 +38,7 @@ bool acts_on(const Conversion& conversion, const BenchMean& reading) {
   return experiment != nullptr && dem::depends_on(*experiment, conversion.coefficient);
 }
 
-/// Within the study's bounds. None: in the target it is the same all over them.
+/// Within the study's bounds. Empty: the target's value is the same everywhere between them.
 std::vector<VariedCoefficient> varied(const ExportFacts& facts, ExportTarget target,
                                       const Conversion& conversion) {
   for (const NamedCoefficient& named : coefficients_of(facts.study())) {

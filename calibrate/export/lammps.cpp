@@ -15,7 +15,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// Of the rolling spring, as in `elastic_plastic` (dem/THEORY.md): a fraction of the critical one.
+/// Damping of the rolling spring, as in `elastic_plastic` (dem/THEORY.md): a fraction of critical.
 constexpr double kRollingDamping = .3;
 
 ExportedFile lammps_material_file(const ExportFacts& facts, const Conversions& conversions) {
@@ -26,7 +26,7 @@ ExportedFile lammps_material_file(const ExportFacts& facts, const Conversions& c
   fields.set("SKIN", .2 * facts.grain().reach_m());
   fields.set("K_NORMAL", 4.0 / 3 * wall.reduced_young_pa / facts.stiffness(any));
   fields.set("K_TANGENTIAL", 8 * wall.reduced_shear_pa / facts.stiffness(any));
-  // LAMMPS multiplies the normal damper with it; ours goes with sqrt(S_t m*), S_t / S_n = 4 G* /
+  // LAMMPS multiplies the normal damper by it; ours scales with sqrt(S_t m*), S_t / S_n = 4 G* /
   // E*.
   fields.set("TANGENTIAL_DAMPING", std::sqrt(4 * wall.reduced_shear_pa / wall.reduced_young_pa));
   fields.set("WALL_RESTITUTION", exported(conversions, "contact.particle_wall.restitution"));
@@ -77,7 +77,7 @@ ExportedFile inertia_file(const std::string& name, const dem::ClumpShape& shape,
                               speed.z())};
 }
 
-/// The body's spheres where they are, and for a clump its mass and inertia.
+/// The body's spheres in position, and for a clump its mass and inertia.
 void add_body(const std::string& name, const dem::ClumpShape& shape, double mass_kg,
               const dem::Grain& grain, std::vector<ExportedFile>& files) {
   const bool is_sphere = shape.spheres.size() == 1;
@@ -85,7 +85,7 @@ void add_body(const std::string& name, const dem::ClumpShape& shape, double mass
   fields.add_section(is_sphere ? "SPHERE" : "CLUMP");
   fields.set("INFILE", name + ".txt");
   fields.set("VZ", grain.velocity.z());
-  // Of a sphere alone it gives the mass.
+  // It only gives the mass of single spheres.
   const double density = mass_kg / dem::sphere_shape(shape.spheres.front().radius).volume_m3;
   int count = 0;
   for (const dem::ClumpSphere& sphere : shape.spheres) {
@@ -144,7 +144,7 @@ void add_tilt(const ExportFacts& facts, std::vector<ExportedFile>& files) {
   files.push_back({.name = "tilt.lmp", .text = filled("lammps/tilt.lmp", fields)});
 }
 
-/// An incline of another material than the flat has a contact law of its own.
+/// An incline of another material than the flat's has its own contact law.
 void add_incline(const ExportFacts& facts, const Conversions& conversions, DeckFields& fields) {
   if (!facts.study().model.parts.contains(dem::WallPart::incline)) {
     fields.add_section("ONE_MATERIAL");
@@ -200,7 +200,7 @@ std::vector<ExportedFile> lammps_files(const ExportFacts& facts, const Conversio
   return files;
 }
 
-/// The polynomial by which LAMMPS turns a restitution into the factor of its `damping tsuji`
+/// The polynomial with which LAMMPS converts a restitution to the factor of its `damping tsuji`
 /// (LAMMPS documentation, "pair_style granular", eq. for alpha); falls with `value` below 1.
 double tsuji_polynomial(double value) {
   double sum = 0;
@@ -210,7 +210,7 @@ double tsuji_polynomial(double value) {
   return sum;
 }
 
-/// Where it takes a value, 0 to 6 (restitution from .01 on): by halving.
+/// Inverts it by bisection, for values 0 to 6 (restitution from .01 up).
 double tsuji_value(double factor) {
   double low = -1;
   double high = 1;

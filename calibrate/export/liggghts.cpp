@@ -44,8 +44,8 @@ void mark_stiffness(const ExportFacts& facts, DeckFields& fields) {
   if (softest < kSoft_pa) fields.add_section("SOFT");
 }
 
-/// A row for each type: of the grain its values with all types, of the walls that with the grain.
-/// What walls do to each other is never asked for.
+/// A row for each type: for the grain its values with all types, for walls the value with the
+/// grain. Values between walls are never used.
 std::string pairs_text(const std::vector<double>& with_grain) {
   std::string text;
   for (std::size_t a = 0; a < with_grain.size(); ++a) {
@@ -99,7 +99,7 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
                                     {"SLIDING", "sliding_friction"},
                                     {"ROLLING", "rolling_friction"}}) {
     const double wall = exported(conversions, fmt::format("contact.particle_wall.{}", name));
-    // Where grains never touch each other, they have no coefficients.
+    // If grains never touch each other, they have no such coefficients.
     const double grain =
         facts.has_grain_contacts()
             ? exported(conversions, fmt::format("contact.particle_particle.{}", name))
@@ -118,7 +118,7 @@ ExportedFile material_file(const ExportFacts& facts, const Conversions& conversi
   return {.name = "material.lig", .text = filled("liggghts/material.lig", fields)};
 }
 
-/// The kind of grain that is poured, or put down twice.
+/// The grain template that is poured, or placed twice.
 ExportedFile grain_file(const ExportFacts& facts) {
   DeckFields fields = common_fields(facts);
   mark_shape(facts.is_sphere(), fields);
@@ -195,14 +195,14 @@ double largest_radius_m(const dem::ClumpShape& grain) {
 ExportedFile heap_file(const ExportFacts& facts) {
   constexpr double kLook_s = .02;
   constexpr double kInsert_s = .02;
-  constexpr int kAttempts = 100;  // in that time all fall, and leave the column's top empty
+  constexpr int kAttempts = 100;  // meanwhile all fall, leaving the column's top empty
   const dem::HeapProtocol& protocol = facts.study().protocol<dem::HeapProtocol>();
   const double reach = facts.grain().reach_m();
   const double timestep = facts.timestep_s(dem::experiment_of<dem::HeapProtocol>());
   const double tube_m3 = std::numbers::pi / 4 * protocol.tube_diameter_m *
                          protocol.tube_diameter_m * protocol.tube_height_m;
   const int grains = grains_in_heap(facts);
-  constexpr double kLoose = .12;  // of a column that random insertion fills without trouble
+  constexpr double kLoose = .12;  // of a column, which random insertion fills easily
   const double column =
       grains * facts.grain().volume_m3 / (kLoose * tube_m3) * protocol.tube_height_m;
   DeckFields fields = deck_fields(facts, dem::experiment_of<dem::HeapProtocol>());
@@ -215,7 +215,7 @@ ExportedFile heap_file(const ExportFacts& facts) {
   fields.set("COLUMN", column);
   fields.set("INSERT_STEPS", steps(kInsert_s, timestep));
   fields.set("ATTEMPTS", kAttempts);
-  // Away from the edge, over which grains may fall.
+  // Away from the edge, where grains may fall off.
   fields.set("UNDER", std::max(.5 * protocol.tube_diameter_m, .5 * protocol.plate_m - 2 * reach));
   fields.set("THICKNESS", protocol.plate_thickness_m);
   fields.set("ROOM", .5 * protocol.plate_m + 4 * reach);
@@ -224,7 +224,7 @@ ExportedFile heap_file(const ExportFacts& facts) {
   fields.set("FILL_STEPS", steps(1 + std::sqrt(2 * column / kStandardGravity_m_s2), timestep));
   fields.set("RADIUS", largest_radius_m(facts.grain()));
   fields.set("LOOK_STEPS", steps(kLook_s, timestep));
-  // As dem/experiment/rest_test.h has it.
+  // As in dem/experiment/rest_test.h.
   fields.set("WINDOW_STEPS", steps(2 * std::sqrt(2 * reach / kStandardGravity_m_s2), timestep));
   fields.set("REST", 1e-3 * reach);
   fields.set("LONGEST_S", kHeapRest_s);
@@ -268,7 +268,7 @@ std::vector<ExportedFile> liggghts_files(const ExportFacts& facts, const Convers
 std::string liggghts_program(dem::RollingModel /*model*/) { return "LIGGGHTS-PUBLIC 3.8"; }
 
 RestitutionCounterpart liggghts_restitution(double ours) {
-  constexpr double kLeast = .0501;  // it takes what is above .05 only
+  constexpr double kLeast = .0501;  // it accepts only values above .05
   RestitutionCounterpart theirs{
       .name = "coefficientRestitution",
       .value = std::max(ours, kLeast),

@@ -91,7 +91,7 @@ ExportedFile drop_file(const ExportFacts& facts, const DropDeck& deck) {
   fields.set("HEIGHT_MM", 1e3 * deck.height_m);
   fields.set("GRAINS", static_cast<int>(deck.poses.size()));
   fields.set("SPEED", facts.speed_m_s(deck.experiment));
-  // It may roll off glued grains, and then no faster than it came.
+  // It may roll off the glued grains, but no faster than it arrived.
   const double farthest_m =
       facts.speed_m_s(deck.experiment) * facts.longest_drop_s(deck.experiment);
   fields.set("ROOM", farthest_m + 10 * facts.grain().reach_m());
@@ -110,12 +110,12 @@ ExportedFile drop_file(const ExportFacts& facts, const DropDeck& deck) {
 
 namespace {
 
-/// How far about its place a grain may come to touch the bed, in its reaches.
+/// Distance around its drop point within which a grain may touch the bed, in its bounding radii.
 constexpr double kAround = 8;
-/// In which grains that fall into the hollows of a bed come to rest.
+/// Time in which grains that fall into the hollows of a bed come to rest.
 constexpr double kSettle_s = .5;
 
-/// The part of a bed, which repeats itself, about a place: a square, that place at its origin.
+/// A square section of the periodic bed around a place, which becomes the origin.
 std::vector<dem::ClumpSphere> bed_about(const dem::SphereBed& bed, const dem::Vector& place,
                                         double half_m) {
   std::vector<dem::ClumpSphere> near;
@@ -150,8 +150,8 @@ ExportedFile bed_file(const ExportFacts& facts, dem::Experiment experiment, int 
           .text = filled("liggghts/bed.lig", fields)};
 }
 
-/// Numbers are drawn in the order of our simulation with the study's first seed: the same bed, the
-/// same poses and places.
+/// Random numbers are drawn in the same order as in our simulation with the study's first seed: the
+/// same bed, poses and places.
 std::vector<ExportedFile> drop_files(const ExportFacts& facts) {
   const dem::GrainDropProtocol& protocol = facts.study().protocol<dem::GrainDropProtocol>();
   const dem::ClumpShape& grain = facts.grain();
@@ -178,18 +178,18 @@ std::vector<ExportedFile> drop_files(const ExportFacts& facts) {
   return files;
 }
 
-/// Bodies of grains on a board that tilts.
+/// Bodies of grains on a tilting board.
 struct TiltDeck {
   dem::Experiment experiment = dem::experiment_of<dem::GrainTiltProtocol>();
   int bonded = 1;
   double rate_deg_s = 0;
   int places = 1;
   double coverage = 0;
-  std::string place_file;  ///< that puts a body in, and the spheres of one
+  std::string place_file;  ///< that inserts a body, and the spheres of one
   std::string body_file;
 };
 
-/// As our simulation does it, see dem/experiment/tilt_on_grains.cpp.
+/// As in our simulation, see dem/experiment/tilt_on_grains.cpp.
 ExportedFile tilt_on_grains_file(const ExportFacts& facts, const TiltDeck& deck,
                                  const dem::ClumpShape& body, double height_m) {
   constexpr double kLook_s = .002;
@@ -291,7 +291,7 @@ void add_pair(const dem::HangingPair& pair, int number, DeckFields& fields) {
   own.set("BZ", pair.hanging.z());
 }
 
-/// Pairs in the poses of our run with the study's first seed, each on its own.
+/// Pairs in the poses of our run with the study's first seed, each simulated separately.
 ExportedFile pendulum_file(const ExportFacts& facts) {
   const dem::PendulumProtocol& protocol = facts.study().protocol<dem::PendulumProtocol>();
   const double timestep = facts.timestep_s(dem::experiment_of<dem::PendulumProtocol>());
@@ -327,32 +327,31 @@ std::vector<ExportedFile> liggghts_files_of_pairs(const ExportFacts& facts) {
 
 namespace {
 
-/// Reaches of a grain over the rim, from where grains are poured.
+/// Height above the rim from which grains are poured, in bounding radii.
 constexpr double kHeaped = 5;
 
-/// What is filled, a tube or a box, and from where.
+/// The vessel to be filled, a tube or a box, and where grains come from.
 struct Vessel {
   double section_m2 = 0;
   double floor_m = 0;
   double rim_m = 0;
-  double spout_m = 0;  ///< grains are as fast as if they came from there
+  double spout_m = 0;  ///< grains are as fast as if they fell from there
 };
 
-/// How the grains are poured: layer after layer just above where the heap will end, as fast as if
-/// they came from the spout and as dense as ours. Grains that fall one by one come to lie 6 %
-/// denser.
+/// How the grains are poured: layer by layer from just above the final heap, as fast as if they
+/// came from the spout and as dense as ours. Grains that fall one by one pack 6 % denser.
 struct Pouring {
   double grains = 0;     ///< in all
   double from_m = 0;     ///< height of a layer's centres
   double speed_m_s = 0;  ///< of its grains
-  double layer_s = 0;    ///< from layer to layer: until it has left its place
+  double layer_s = 0;    ///< between layers: until a layer has left its place
   double rate_s = 0;     ///< grains a second
 };
 
 Pouring pouring_of(const Vessel& vessel, const dem::ClumpShape& grain) {
   constexpr double kPacked = .6;
   constexpr double kCovered = .5;  // of the vessel's section: more do not fit at random
-  constexpr double kApart = 2.02;  // reaches from layer to layer
+  constexpr double kApart = 2.02;  // bounding radii between layers
   const double reach = grain.reach_m();
   Pouring pouring;
   pouring.from_m = vessel.rim_m + kHeaped * reach;
@@ -366,7 +365,7 @@ Pouring pouring_of(const Vessel& vessel, const dem::ClumpShape& grain) {
   return pouring;
 }
 
-/// What pour.lig reads, and where grains may be.
+/// Values for pour.lig, and the region that grains may be in.
 void set_pouring(const Pouring& pouring, double reach_m, double timestep_s, DeckFields& fields) {
   constexpr double kRest_s = .5;  // in which grains that have landed come to rest
   const double landed_s = std::sqrt(2 * pouring.from_m / kStandardGravity_m_s2);
@@ -407,9 +406,9 @@ ExportedFile fill_file(const ExportFacts& facts) {
   return {.name = "fill.lig", .text = filled("liggghts/fill.lig", fields)};
 }
 
-/// How far the highest centre of a grain's spheres lies above the grain's, mean of all poses. A
-/// level that is as much higher leaves as many clumps, of which LIGGGHTS takes away any that has a
-/// sphere above it.
+/// Height of a grain's highest sphere centre above the grain's own, mean over all poses. LIGGGHTS
+/// removes every clump with a sphere above a level; raising the level by this height leaves the
+/// same number of clumps.
 double highest_centre_m(const dem::ClumpShape& grain) {
   constexpr int kPoses = 1000;
   dem::Random random(1);
@@ -426,7 +425,7 @@ double highest_centre_m(const dem::ClumpShape& grain) {
 }
 
 ExportedFile draw_down_file(const ExportFacts& facts) {
-  constexpr double kFall = 4;  // reaches, as of our rain
+  constexpr double kFall = 4;  // bounding radii, as in our rain
   constexpr double kPart_s = 1;
   const dem::DrawDownProtocol& protocol = facts.study().protocol<dem::DrawDownProtocol>();
   const double timestep = facts.timestep_s(dem::experiment_of<dem::DrawDownProtocol>());

@@ -6,49 +6,49 @@
 #include "calibrate/export/export.h"
 #include "calibrate/export/facts.h"
 
-/// What the decks of LIGGGHTS share; each is a file of templates/liggghts filled in.
+/// Common parts of the LIGGGHTS decks; each deck is a filled-in file of templates/liggghts.
 
 namespace repose::calibrate {
 
-/// What follows a contact model, of rolling friction: " rolling_friction epsd".
+/// The rolling-friction keywords that follow a contact model: " rolling_friction epsd".
 std::string liggghts_rolling_words(dem::RollingModel model);
 
-/// coefficientRollingViscousDamping of epsd, as our own elastic_plastic has it (dem/THEORY.md).
+/// coefficientRollingViscousDamping of epsd, as in our own elastic_plastic (dem/THEORY.md).
 inline constexpr double kLiggghtsRollingDamping = .3;
 
-/// The number of a part's material: the plate's, 2, where it has none of its own.
+/// The number of a part's material; the plate's, 2, if it has none of its own.
 int liggghts_type(const ExportFacts& facts, dem::WallPart part);
 
-/// What all decks name: stiffness, time step, the reach of the grain, types of parts.
+/// Fields used by all decks: stiffness, time step, the grain's bounding radius, types of parts.
 DeckFields deck_fields(const ExportFacts& facts, dem::Experiment experiment);
 
-/// Marks what is there for spheres, and what for clumps.
+/// Marks which sections apply to spheres and which to clumps.
 void mark_shape(bool is_sphere, DeckFields& fields);
 
-/// With which LIGGGHTS gives a sphere its mass; a clump has a mass of its own.
+/// The density with which LIGGGHTS gives a sphere its mass; a clump has its own mass.
 double density_kg_m3(const ExportFacts& facts, bool is_sphere);
 
-/// Spheres of a body, a line each: x, y, z, radius.
+/// Spheres of a body, one line each: x, y, z, radius.
 std::string spheres_text(const dem::ClumpShape& shape);
 
-/// What puts one body in: a sphere, or the clump that a deck names.
+/// The file that inserts one body: a sphere, or the clump that a deck names.
 ExportedFile place_file(const ExportFacts& facts, const char* name, bool is_sphere);
 
-/// Grains that fall, one after the other.
+/// Grains dropped one after the other.
 struct DropDeck {
   dem::Experiment experiment = nullptr;
-  std::string ground;   ///< what they fall on, for people
+  std::string ground;   ///< what they fall on, as text
   std::string section;  ///< of the template that makes it
   double height_m = 0;
   std::vector<TouchingPose> poses;
 };
 ExportedFile drop_file(const ExportFacts& facts, const DropDeck& deck);
 
-/// Decks of pairs of grains, where the study has that experiment, and what these read.
+/// Decks of grain pairs, if the study has that experiment, and the files they read.
 std::vector<ExportedFile> liggghts_files_of_pairs(const ExportFacts& facts);
-/// Of grains that are poured into a vessel; heaps have a deck of their own.
+/// Of grains poured into a vessel; heaps have their own deck.
 std::vector<ExportedFile> liggghts_files_of_poured_grains(const ExportFacts& facts);
-/// And of grains on a board of glued ones.
+/// Of grains on a board of glued grains.
 std::vector<ExportedFile> liggghts_files_on_grains(const ExportFacts& facts);
 
 }  // namespace repose::calibrate

@@ -11,14 +11,14 @@
 namespace repose::calibrate {
 namespace {
 
-/// A text of the target's own, without its last line break.
+/// A text specific to the target, without its last line break.
 std::string text_of(ExportTarget target, const char* name) {
   std::string text = filled(name_of(target) + '/' + name, {});
   if (!text.empty()) text.pop_back();
   return text;
 }
 
-/// Dampers are no multiples of the restitution that they give.
+/// Dampers are not multiples of the restitution that they produce.
 std::string factor_text(const Conversion& conversion) {
   const bool is_same = conversion.exported == conversion.value;
   const bool is_damper = conversion.coefficient.ends_with("restitution") && !is_same;
@@ -61,7 +61,7 @@ std::string heap_stiffness_text(const ExportFacts& facts) {
                      number(facts.stiffness(dem::experiment_of<dem::HeapProtocol>())));
 }
 
-/// Decks have grains of the mean size; EDEM has sizes of its own.
+/// Decks have grains of the mean size; EDEM has its own size distributions.
 void add_sizes(const ExportFacts& facts, ExportTarget target, DeckFields& fields) {
   constexpr double kPercent = 100;
   const double percent = kPercent * facts.study().model.size_cv;
@@ -72,7 +72,7 @@ void add_sizes(const ExportFacts& facts, ExportTarget target, DeckFields& fields
                                           : "The grains of these decks all have the mean size.");
 }
 
-/// How a heap of that program is measured and compared with the bench's.
+/// How a heap from the target program is measured and compared with the bench's.
 void add_heap_back(const ExportFacts& facts, ExportTarget target, DeckFields& fields) {
   if (!facts.has(dem::experiment_of<dem::HeapProtocol>())) return;
   const std::string unit =
@@ -101,7 +101,7 @@ void add_further_runs(const FurtherRuns& further, DeckFields& fields) {
   }
 }
 
-/// All of them, in our definitions.
+/// Adds all sets, in our definitions.
 void add_sets(const ExportFacts& facts, const ExportRequest& request,
               const std::vector<std::vector<double>>& sets, DeckFields& fields) {
   if (sets.size() < 2) return;

@@ -8,9 +8,9 @@
 
 namespace repose::calibrate {
 
-/// README.txt of an export: how to run it, what became of each coefficient, what does not carry
+/// README.txt of an export: how to run it, how each coefficient was converted, what does not carry
 /// over.
-/// @param sets  those that fit as well as each other; of a single one nothing is said
+/// @param sets  equally good sets; a single one is not mentioned
 ExportedFile readme_of(const ExportFacts& facts, const ExportRequest& request,
                        const std::vector<Conversion>& conversions,
                        const std::vector<std::vector<double>>& sets, const FurtherRuns& further);

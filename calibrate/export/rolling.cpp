@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kDirections = 4000;
 
-/// Where a plane across `direction` touches the clump, per radius of the sphere that it touches.
+/// Distance to where a plane normal to `direction` touches the clump, divided by the radius of the
+/// touched sphere.
 double arm_ratio_along(const dem::ClumpShape& grain, const dem::Vector& direction) {
   const auto reach = [&](const dem::ClumpSphere& sphere) {
     return direction.dot(sphere.centre) + sphere.radius;
@@ -25,7 +26,7 @@ double arm_ratio_along(const dem::ClumpShape& grain, const dem::Vector& directio
   return (touching->centre + touching->radius * direction).norm() / touching->radius;
 }
 
-/// The k-th of kDirections that are spread evenly over all.
+/// The k-th of kDirections spread evenly over all directions.
 dem::Vector any_direction(int k) {
   const double turn = std::numbers::pi * (3 - std::sqrt(5.0)) * k;
   const double z = 1 - (2 * k + 1.0) / kDirections;
@@ -33,7 +34,7 @@ dem::Vector any_direction(int k) {
   return {across * std::cos(turn), across * std::sin(turn), z};
 }
 
-/// The k-th of those across the long axis.
+/// The k-th of kDirections normal to the long axis.
 dem::Vector lying_direction(const dem::ClumpShape& grain, int k) {
   const double turn = 2 * std::numbers::pi * k / kDirections;
   const dem::Quaternion lying = dem::lying_pose(grain);  // the long axis along y
@@ -45,7 +46,7 @@ bool is_centred_sphere(const dem::ClumpShape& grain) {
          grain.spheres.front().centre.norm() < 1e-6 * grain.spheres.front().radius;
 }
 
-/// From `constant_torque`, mu_r F r against each body's own spin, to a lever of R or R*.
+/// Converts from `constant_torque`, mu_r F r against each body's own spin, to a lever of R or R*.
 RollingConversion from_own_spin(Partner partner, const dem::ClumpShape& grain, double lever) {
   const ArmRatio arm = arm_ratio(grain, partner);
   const double in_reduced_radii = partner == Partner::wall ? 1 : 2;

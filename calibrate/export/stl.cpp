@@ -24,7 +24,7 @@ class Stl {
     }
     text_ += "endloop\nendfacet\n";
   }
-  /// A flat four-sided face, its corners in order.
+  /// A flat quadrilateral face, with vertices in order.
   void add(const dem::Vector& a, const dem::Vector& b, const dem::Vector& c, const dem::Vector& d) {
     add(a, b, c);
     add(a, c, d);
@@ -37,7 +37,7 @@ class Stl {
   std::string text_;
 };
 
-/// From pane to pane, between two places along the upper box.
+/// Adds a sheet from pane to pane, between two positions along the upper box.
 void add_sheet(const dem::DrawDownProtocol& protocol, double from_x, double to_x, Stl& stl) {
   const double side = .5 * protocol.depth_m, height = dem::upper_floor_m(protocol);
   stl.add({from_x, -side, height}, {to_x, -side, height}, {to_x, side, height},

@@ -13,7 +13,7 @@ namespace repose::calibrate {
 
 using Conversions = std::vector<Conversion>;
 
-/// What another program has in place of a restitution.
+/// Another program's counterpart of a restitution.
 struct RestitutionCounterpart {
   std::string name = {};  ///< what it calls it
   double value = 0;       ///< there
@@ -22,27 +22,28 @@ struct RestitutionCounterpart {
   std::string limits = {};  ///< what does not carry over
 };
 
-/// All that is to be known of a program that studies are exported to. NAME.cpp has its decks and
-/// NAME_target(), and templates/NAME what they are filled into, limits.txt, running.txt and
-/// heap_back.txt besides; its line is in export_targets().
+/// Everything about a program that studies are exported to. NAME.cpp has its decks and
+/// NAME_target(); templates/NAME has the templates they are filled into, and limits.txt,
+/// running.txt and heap_back.txt; its line is in export_targets().
 struct TargetEntry {
-  std::string_view name;        ///< on the command line, and of its folders
+  std::string_view name;        ///< on the command line and in folders
   std::string_view summary;     ///< what is written for it
-  bool has_tables;              ///< in place of decks: they hold for all experiments and sizes
+  bool has_tables;              ///< instead of decks, valid for all experiments and sizes
   bool takes_incline_material;  ///< a roll's incline may be of another material than its flat
-  /// As its makers write it, and the version that the decks are written for.
+  /// Its name as its makers write it, and the version that the decks are for.
   std::string (*program)(dem::RollingModel model);
   RestitutionCounterpart (*restitution)(double ours);
   std::string_view heap_file;                           ///< with a heap's spheres: heap_back.txt
-  std::string_view heap_unit;                           ///< its unit; empty: the file says it
+  std::string_view heap_unit;                           ///< its unit; empty: stated in the file
   std::string_view sliding_name;                        ///< what it calls sliding friction
-  std::string_view sliding_limits;                      ///< what of it does not carry over
+  std::string_view sliding_limits;                      ///< what does not carry over
   std::string_view rolling_name;                        ///< what it calls rolling friction
-  std::string (*rolling_law)(dem::RollingModel model);  ///< and how it defines that, a sentence
-  /// Of a model with rolling friction.
+  std::string (*rolling_law)(dem::RollingModel model);  ///< and its definition, as a sentence
+  /// For models with rolling friction.
   RollingConversion (*rolling)(dem::RollingModel model, Partner partner,
                                const dem::ClumpShape& grain);
-  /// Whether it has a deck for an experiment that is done so. Each has been run: see tests/peers.
+  /// Whether it has a deck for an experiment with this protocol. Each has been run: see
+  /// tests/peers.
   bool (*has_deck)(const dem::Protocol& protocol);
   /// All files but README.txt.
   std::vector<ExportedFile> (*files)(const ExportFacts& facts, const Conversions& conversions);

@@ -16,7 +16,8 @@
 namespace repose::calibrate {
 namespace {
 
-/// The real pair, neither softened nor needing a value between grains where there is no heap.
+/// Contacts with the real stiffness, from an experiment that the study has, so that no
+/// particle–particle value is needed without a heap.
 dem::ContactTable real_contacts(const ExportFacts& facts) {
   const dem::Experiment any = facts.experiments().front();
   dem::Model model = dem::model_for(facts.study(), any);
@@ -36,7 +37,7 @@ void set_pair(const std::string& prefix, const std::string& pair, double restitu
   fields.set(prefix + "_KROT", rolling_stiffness(law, facts.mass_kg(), radius));
 }
 
-/// A heap's; no other experiment of YADE's has a part of another material.
+/// For heaps: no other YADE experiment has a part of another material.
 bool has_own_tube(const ExportFacts& facts) {
   return facts.has(dem::experiment_of<dem::HeapProtocol>()) &&
          facts.study().model.parts.contains(dem::WallPart::tube);
@@ -53,7 +54,8 @@ ExportedFile yade_grain_file(const ExportFacts& facts, const Conversions& conver
   set_body(facts.grain(), study.model.grain_material.density_kg_m3, fields);
   fields.set("REACH", facts.grain().reach_m());
   fields.set("DENSITY", study.model.grain_material.density_kg_m3);
-  // YADE's reduced radius on a wall is half the sphere's, and stiffness goes with its root.
+  // YADE's reduced radius on a wall is half the sphere's, and stiffness scales with its square
+  // root.
   fields.set("PAIR_YOUNG", std::numbers::sqrt2 * pair.young_modulus_pa);
   fields.set("PAIR_POISSON", pair.poisson_ratio);
   fields.set("GRAIN_YOUNG", study.model.grain_material.young_modulus_pa);
@@ -214,7 +216,7 @@ ExportTarget yade_target() {
       .name = "yade",
       .summary = "scripts for drop, tilt, roll and heap",
       .has_tables = false,
-      .takes_incline_material = false,  // its contacts all have one rolling friction
+      .takes_incline_material = false,  // all its contacts have the same rolling friction
       .program = yade_program,
       .restitution = yade_restitution,
       .heap_file = "heap.txt",

@@ -12,7 +12,7 @@
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
-/// What results of several kinds have in common as JSON.
+/// Common parts of the JSON of several kinds of results.
 
 namespace repose {
 
@@ -27,7 +27,7 @@ inline nlohmann::ordered_json places_json(const std::vector<vision::Point>& plac
   return json;
 }
 
-/// [x, y, width, height]; null where there is none.
+/// [x, y, width, height]; null if there is none.
 inline nlohmann::ordered_json box_json(const std::optional<vision::Box>& box) {
   if (!box) return nullptr;
   return nlohmann::ordered_json::array({box->x, box->y, box->width, box->height});
@@ -39,13 +39,13 @@ inline nlohmann::ordered_json boxes_json(const std::vector<vision::Box>& boxes) 
   return json;
 }
 
-/// [x1, y1, x2, y2]; null where there is none.
+/// [x1, y1, x2, y2]; null if there is none.
 inline nlohmann::ordered_json line_json(const std::optional<vision::Segment>& line) {
   if (!line) return nullptr;
   return nlohmann::ordered_json::array({line->from.x, line->from.y, line->to.x, line->to.y});
 }
 
-/// A list as the text of a JSON array.
+/// A list as text of a JSON array.
 /// @param json_of  makes an object of each
 template <typename Item, typename JsonOf>
 std::string json_text(const std::vector<Item>& items, const JsonOf& json_of) {
@@ -53,7 +53,7 @@ std::string json_text(const std::vector<Item>& items, const JsonOf& json_of) {
   Json json = Json::array();
   for (const Item& item : items) json.push_back(json_of(item));
   constexpr int kIndent = 2;
-  // File names need not be UTF-8, JSON must be.
+  // File names need not be UTF-8, but JSON must be.
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -5,7 +5,7 @@
 
 namespace repose::calibrate {
 
-/// A column of the tables that have a row for each measured picture.
+/// A column of tables with a row for each measured picture.
 struct MeasuredColumn {
   std::string_view name;
   std::string_view unit;  ///< empty: it has none

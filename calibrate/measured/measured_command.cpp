@@ -27,7 +27,7 @@ std::string value_of(const vision::Point& place) {
   return fmt::format("{:g},{:g}", place.x, place.y);
 }
 
-/// Options of a command, one after the other.
+/// Builds a command's options one by one.
 class Options {
  public:
   void add(const char* name, const std::string& value) {
@@ -84,7 +84,7 @@ void add_measuring(const vision::MeasureOptions& told, Options& options) {
   }
 }
 
-/// What makes a folder of frames a film.
+/// The frame rate, which makes a folder of frames a film.
 void add_frame_rate(const calibrate::MeasuredPicture& picture, Options& options) {
   std::error_code ignored;
   if (!picture.filmed || !std::filesystem::is_directory(picture.file, ignored)) return;

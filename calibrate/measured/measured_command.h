@@ -8,16 +8,16 @@
 
 namespace repose::calibrate {
 
-/// The command line that measures the file with all that was said of it, as a shell takes it.
+/// The command line that measures the file with all its settings, quoted for a shell.
 std::string measure_command(const MeasuredPicture& picture);
 
-/// Where millimetres come from, as options of a command, each with a space before it.
+/// The source of millimetres, as command-line options, each with a leading space.
 std::string scale_options(const vision::ScaleOptions& scale);
 
 /// For the report, with its command.
 report::MeasuredPhotograph photograph_of(const MeasuredPicture& picture);
 
-/// What was said of a picture, with what is proposed for it.
+/// A picture's settings, combined with the proposal for it.
 vision::PictureSettings with_proposal(vision::PictureSettings told,
                                       const vision::Proposal& proposal);
 

@@ -36,7 +36,7 @@ std::string title_of(const fs::path& file, const MeasuredPicture& measured) {
   return fmt::format("{} at rest from {:.2f} to {:.2f} s", name, stretch->from_s, stretch->to_s);
 }
 
-/// What was measured: a picture, corrected where its lens is known, and what was said of it there.
+/// What was measured: a picture, corrected if its lens is known, and its settings there.
 struct Seen {
   const vision::Picture& picture;
   const vision::MeasureOptions& options;
@@ -59,7 +59,7 @@ void draw(const Seen& seen, const fs::path& file, const fs::path& overlay,
   }
 }
 
-/// Does `work`; what it throws becomes the picture's error.
+/// Runs `work`; an exception becomes the picture's error.
 template <typename Work>
 void attempt(base::FieldNames fields, MeasuredPicture& measured, const Work& work) {
   try {
@@ -78,7 +78,7 @@ void attempt(base::FieldNames fields, MeasuredPicture& measured, const Work& wor
   }
 }
 
-/// What many pictures have no room for.
+/// Drops parts that are too large to keep for many pictures.
 void drop_large_parts(MeasuredPicture& measured) {
   measured.told.measuring.hints.mask.bgr = {};
   measured.angle.outline = {};
@@ -87,7 +87,7 @@ void drop_large_parts(MeasuredPicture& measured) {
   measured.angle.right.edge = {};
 }
 
-/// A proposal for the corrected picture, in the pixels of the picture as it is.
+/// Converts a proposal for the corrected picture to pixels of the original.
 void move_back(const vision::Lens& lens, vision::Proposal& proposal) {
   for (auto* box : {&proposal.excluded, &proposal.heap}) {
     if (*box) *box = vision::seen_box(**box, lens);
@@ -111,7 +111,7 @@ const vision::Picture& seen_in(const vision::Picture& picture, const vision::Siz
   return heap.corrected.empty() ? picture : heap.corrected;
 }
 
-/// What would help where there is no number.
+/// Adds what would help if there is no number.
 void add_proposal(const Seen& seen, MeasuredPicture& measured) {
   const bool shows_heap = !measured.filmed || measured.filmed->stretch;
   if (measured.angle.status != vision::MeasureStatus::refused || !shows_heap) return;
@@ -119,7 +119,7 @@ void add_proposal(const Seen& seen, MeasuredPicture& measured) {
   if (measured.proposal && measured.lens) move_back(*measured.lens, *measured.proposal);
 }
 
-/// All that follows from the angle of a picture, or of a film's heap at rest.
+/// Everything that follows the angle of a picture, or of a film's heap at rest.
 void finish(const FileMeasuring& plan, std::size_t index, const Seen& seen,
             MeasuredPicture& measured) {
   const vision::Picture& picture = seen.picture;
@@ -135,8 +135,8 @@ void finish(const FileMeasuring& plan, std::size_t index, const Seen& seen,
   }
 }
 
-/// OVERLAYS/heap_at_01.200s.png for the overlay OVERLAYS/heap.png, or where the user has such a
-/// picture, another name.
+/// OVERLAYS/heap_at_01.200s.png for the overlay OVERLAYS/heap.png, or another name if the user has
+/// such a picture.
 fs::path overlay_of_frame(const FileMeasuring& plan, std::size_t index, double time_s,
                           double length_s) {
   const fs::path& whole = plan.overlays[index];
@@ -181,7 +181,7 @@ MeasuredPicture measure_frame(const FileMeasuring& plan, std::size_t index,
   return measured;
 }
 
-/// Decodes frames one after the other and measures several at a time.
+/// Decodes frames sequentially and measures several at a time.
 void measure_series(const FileMeasuring& plan, std::size_t index, vision::FrameSeries& series,
                     const std::function<void(double)>& progress,
                     std::vector<MeasuredPicture>& measured) {
@@ -290,7 +290,7 @@ std::vector<MeasuredPicture> measure_one_scan(const FileMeasuring& plan, std::si
   return measured;
 }
 
-/// Drawn from all around. The overlay is of the first view.
+/// Views are drawn from all around. The overlay is of the first view.
 std::vector<MeasuredPicture> measure_one_of_particles(const FileMeasuring& plan, std::size_t index,
                                                       const std::function<void(double)>& progress) {
   const fs::path& file = plan.pictures[index];

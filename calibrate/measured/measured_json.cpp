@@ -52,7 +52,7 @@ std::string warning_codes(const std::vector<vision::Warning>& warnings) {
   return fmt::format("{}", fmt::join(codes, ";"));
 }
 
-/// Of pictures empty.
+/// Empty for pictures.
 void add_film(Row& row, const std::optional<FilmedPicture>& filmed) {
   constexpr int kFields = 5;
   if (!filmed) {
@@ -67,14 +67,14 @@ void add_film(Row& row, const std::optional<FilmedPicture>& filmed) {
   row.add_number(filmed->film.frames_per_s);
 }
 
-/// What millimetres come from; empty: there are none.
+/// The source of millimetres; empty: none.
 std::string_view scale_name(const MeasuredPicture& picture) {
   if (!picture.has_scale) return {};
   if (picture.positions) return "positions";
   return picture.board ? "board" : "given";
 }
 
-/// Empty where there is no scale.
+/// Empty without a scale.
 void add_sizes(Row& row, const MeasuredPicture& picture) {
   const vision::HeapSizes& sizes = picture.sizes;
   row.add_text(picture.lens ? picture.told.scale.lens_file.string() : "");
@@ -94,7 +94,7 @@ int azimuths_with_angle(const vision::ScannedHeap& scan) {
                     [](const vision::Azimuth& azimuth) { return azimuth.angle_rad.has_value(); }));
 }
 
-/// Empty of pictures.
+/// Empty for pictures.
 void add_scan(Row& row, const std::optional<vision::ScannedHeap>& scan) {
   const auto volume = scan ? scan->volume_ml : std::nullopt;
   row.add_number(volume ? std::optional(volume->value) : std::nullopt);
@@ -103,7 +103,7 @@ void add_scan(Row& row, const std::optional<vision::ScannedHeap>& scan) {
   row.add_degrees(scan ? scan->azimuth_sd_rad : std::nullopt);
 }
 
-/// Of a scan what a picture has besides stays empty.
+/// For scans; fields that only pictures have stay empty.
 std::vector<std::string> scan_cells(const MeasuredPicture& picture) {
   constexpr int kOfSides = 11;    // from left_status to ground_tilt_deg
   constexpr int kOfPictures = 7;  // from segmentation to hints
@@ -156,7 +156,7 @@ std::vector<std::string> picture_cells(const MeasuredPicture& picture) {
   return std::move(row).cells();
 }
 
-/// Nothing is known of it but why.
+/// Only the reason is known.
 std::vector<std::string> unread_cells(const MeasuredPicture& picture) {
   constexpr int kUnknownFields = 24;  // between status and reason
   Row row;
@@ -190,7 +190,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A length and its half-width, null where there is none.
+/// A length and its half-width; null if there is none.
 void add_estimate(Json& json, const std::string& key,
                   const std::optional<vision::Estimate>& estimate) {
   json[key] = estimate ? Json(estimate->value) : Json();
@@ -236,7 +236,7 @@ Json definitions_json(const std::vector<vision::NamedAngle>& definitions) {
   return json;
 }
 
-/// What a person has said of the picture; null when nothing.
+/// The user's hints on the picture; null if there are none.
 Json hints_json(const vision::Hints& hints) {
   if (hints.empty() && hints.source.empty()) return nullptr;
   return {{"rotate_deg", hints.turn_deg == 0 ? Json() : Json(hints.turn_deg)},
@@ -249,7 +249,7 @@ Json hints_json(const vision::Hints& hints) {
           {"file", hints.source.empty() ? Json() : Json(hints.source)}};
 }
 
-/// What would help a refused picture; null when nothing is known.
+/// What would help a refused picture; null if unknown.
 Json proposal_json(const std::optional<vision::Proposal>& proposal) {
   if (!proposal) return nullptr;
   return {{"rotate_deg", proposal->turn_deg == 0 ? Json() : Json(proposal->turn_deg)},
@@ -293,7 +293,7 @@ Json board_json(const std::optional<vision::SeenBoard>& board) {
   return json;
 }
 
-/// Lens, board, and what they make of the heap.
+/// Lens, board, and the heap's sizes derived from them.
 void add_sizes(const MeasuredPicture& picture, Json& json) {
   const vision::HeapSizes& sizes = picture.sizes;
   json["camera"] = lens_json(picture);
@@ -308,7 +308,7 @@ void add_sizes(const MeasuredPicture& picture, Json& json) {
   json["size_reason"] = sizes.reason.empty() ? Json() : Json(sizes.reason);
 }
 
-/// What part of a film it is; all null of a picture.
+/// Which part of a film it is; all null for a picture.
 void add_film(const std::optional<FilmedPicture>& filmed, Json& json) {
   json["film"] = filmed ? film_json(filmed->film) : Json();
   json["stretch"] = nullptr;
@@ -351,7 +351,8 @@ Json silhouettes_json(const std::optional<ScanViews>& silhouettes) {
           {"between_views_deg", degrees(silhouettes->between_views_rad)}};
 }
 
-/// What is known of a scan alone; null of a picture, and what a picture has besides is null of it.
+/// Fields that only scans have, null for pictures; fields that only pictures have are null for
+/// scans.
 void add_scan(const MeasuredPicture& picture, Json& json) {
   const std::optional<vision::ScannedHeap>& scan = picture.scan;
   add_estimate(json, "volume_ml", scan ? scan->volume_ml : std::nullopt);
@@ -370,7 +371,7 @@ void add_scan(const MeasuredPicture& picture, Json& json) {
                   {"silhouettes", silhouettes_json(picture.silhouettes)}};
 }
 
-/// Of a file of particles: what is in it, and what each view gave.
+/// For particle files: their content, and the result of each view.
 Json positions_json(const std::optional<MeasuredPositions>& positions) {
   if (!positions) return nullptr;
   const PositionsFile& file = positions->file;

@@ -9,13 +9,13 @@
 
 namespace repose::calibrate {
 
-/// A cell for each of measured_columns(). What does not exist is empty.
+/// A cell for each of measured_columns(). Missing values are empty.
 std::vector<std::string> measured_cells(const MeasuredPicture& picture);
 
-/// A header and a row for each picture, quoted by RFC 4180.
+/// A header and a row for each picture, quoted as in RFC 4180.
 std::string measure_csv(const std::vector<MeasuredPicture>& pictures);
 
-/// An object with all that is known of a picture. A number that does not exist is null.
+/// An object with everything known about a picture. Missing numbers are null.
 nlohmann::ordered_json measured_json(const MeasuredPicture& picture);
 
 /// An array with these objects.

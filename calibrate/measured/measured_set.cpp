@@ -11,7 +11,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// More digits than any camera resolves, without the noise of the conversion.
+/// More digits than any camera resolves, without conversion noise.
 double rounded(double angle_deg) { return std::round(angle_deg * 1e6) / 1e6; }
 
 std::string mean_text(const Summary& mean) {
@@ -22,7 +22,7 @@ std::string mean_text(const Summary& mean) {
       *sd, n, middle - *uncertainty, middle + *uncertainty);
 }
 
-/// Beside the first, which says what these are.
+/// A further mean, after the first, which explains the numbers.
 std::string other_text(const char* what, const Summary& mean) {
   const auto& [n, middle, sd, uncertainty] = mean;
   if (!sd || !uncertainty) return fmt::format("\n{}: {:.2f}° n = 1", what, middle);
@@ -30,12 +30,12 @@ std::string other_text(const char* what, const Summary& mean) {
                      middle - *uncertainty, middle + *uncertainty);
 }
 
-/// Whether one of them has other pictures in it than the other.
+/// Whether the two are means of different pictures.
 bool is_other(const std::optional<Summary>& one, const std::optional<Summary>& other) {
   return one && (!other || one->n != other->n || one->mean != other->mean);
 }
 
-/// The same mean without what a reader may not want in it, and with what was left out.
+/// The mean without pictures that a reader may not want in it, and with those that were left out.
 std::string other_means(const PictureSet& set) {
   std::string text;
   if (set.flagged > 0 && !set.ok_deg) {
@@ -98,7 +98,7 @@ std::string remarks_on(const MeasuredSet& summary) {
   return text;
 }
 
-/// The angle of a scan is not that of pictures.
+/// The angle of a scan differs from that of pictures.
 std::string scans_text(const MeasuredSet& summary) {
   if (summary.scans == 0) return "";
   std::string text;
@@ -229,7 +229,7 @@ std::string set_json(const MeasuredSet& summary, const vision::MeasureOptions& o
   json["refused"] = set.refused;
   json["not_read"] = summary.not_read;
   json["copies"] = summary.copies;
-  // File names need not be UTF-8, JSON must be.
+  // File names need not be UTF-8, but JSON must be.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

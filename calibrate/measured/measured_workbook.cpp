@@ -28,7 +28,8 @@ void require(lxw_error error) {
   throw std::runtime_error(fmt::format("the workbook cannot be made: {}", lxw_strerror(error)));
 }
 
-/// A place for the library, which writes by name, to be read again; it goes away with its end.
+/// A temporary file for the library, which writes to a named file, to be read back; deleted by the
+/// destructor.
 class Place {
  public:
   Place() : file_((fs::temp_directory_path() / "repose-XXXXXX.xlsx").string()) {
@@ -52,14 +53,14 @@ class Place {
   std::string file_;
 };
 
-/// A sheet that is filled from above, a row after the other.
+/// A sheet filled from the top, row by row.
 class Sheet {
  public:
   Sheet(lxw_workbook* book, const char* name) : sheet_(workbook_add_worksheet(book, name)) {}
 
   void add_text(std::string_view text, lxw_format* format = nullptr) {
     if (!text.empty()) {
-      // Longer ones no spreadsheet opens.
+      // Spreadsheets cannot open longer ones.
       constexpr std::size_t kMost = 8000;
       require(worksheet_write_string(sheet_, row_, column_,
                                      std::string(text.substr(0, kMost)).c_str(), format));
@@ -69,7 +70,7 @@ class Sheet {
   void add_number(double number) {
     require(worksheet_write_number(sheet_, row_, column_++, number, nullptr));
   }
-  /// What is no number is text.
+  /// Anything that is not a number is text.
   void add(const std::string& cell, bool is_text) {
     double number = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
@@ -81,12 +82,12 @@ class Sheet {
     ++row_;
     column_ = 0;
   }
-  /// Of columns, counted from 0.
+  /// Of columns, numbered from 0.
   void set_width(int from, int to, double letters) {
     require(worksheet_set_column(sheet_, static_cast<lxw_col_t>(from), static_cast<lxw_col_t>(to),
                                  letters, nullptr));
   }
-  /// They stay in sight.
+  /// These rows and columns stay visible.
   void freeze(int rows, int columns) {
     worksheet_freeze_panes(sheet_, static_cast<lxw_row_t>(rows), static_cast<lxw_col_t>(columns));
   }
@@ -122,7 +123,7 @@ void add_heaps(lxw_workbook* book, const Formats& formats,
   for (const MeasuredColumn& column : columns) sheet.add_text(column.name, formats.heading);
   sheet.end_row();
   for (const MeasuredColumn& column : columns) {
-    // A line below all, and a word where there is none.
+    // A rule below all cells, so there is a word where there is no unit.
     sheet.add_text(column.unit.empty() ? (column.is_text ? "text" : "1") : column.unit,
                    formats.unit);
   }
@@ -205,8 +206,8 @@ std::string measure_workbook(const std::vector<MeasuredPicture>& pictures) {
   add_heaps(book, formats, pictures);
   add_mean(book, formats, pictures);
   add_columns(book, formats);
-  // The present time would make other bytes of the same results.
-  constexpr time_t kNoTime = 315532800;  // 1 January 1980, the first that a ZIP file can hold
+  // The current time would give different bytes for the same results.
+  constexpr time_t kNoTime = 315532800;  // 1 January 1980, the earliest that a ZIP file can hold
   std::string comments(base::kProgram);
   lxw_doc_properties about{};
   about.comments = comments.data();

@@ -7,10 +7,10 @@
 
 namespace repose::calibrate {
 
-/// The content of a workbook (XLSX, ECMA-376) for spreadsheets: a row for each picture as
-/// measure_csv() has it, with units, their mean as set_json() has it, and what each column is.
-/// The same pictures give the same bytes.
-/// @throws std::runtime_error  this machine has no room for it.
+/// The content of a spreadsheet workbook (XLSX, ECMA-376): a row for each picture as in
+/// measure_csv(), with units; their mean as in set_json(); and the meaning of each column. The same
+/// pictures give the same bytes.
+/// @throws std::runtime_error  there is not enough space for it on this machine.
 std::string measure_workbook(const std::vector<MeasuredPicture>& pictures);
 
 }  // namespace repose::calibrate

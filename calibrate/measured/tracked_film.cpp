@@ -103,7 +103,7 @@ std::string drop_row(const TrackedFilm& film, std::size_t k) {
                                           fmt::format("{}", bounce.number),
                                           number(bounce.drop_mm.value),
                                           number(bounce.rebound_mm.value),
-                                          "0",  // heights of falls without air
+                                          "0",  // fall heights without air
                                           number(bounce.drop_mm.uncertainty),
                                           number(bounce.rebound_mm.uncertainty),
                                           number(bounce.restitution.value),
@@ -155,7 +155,7 @@ std::string track_csv(const std::vector<TrackedFilm>& films, vision::Filmed film
   for (const TrackedFilm& film : films) {
     if (!film.copy_of.empty()) continue;
     const std::size_t bounces = film.drop.bounces.size();
-    // Of a film whose first bounce was not read there is none to give.
+    // A film whose first bounce was not read has none to output.
     const std::size_t first = film.drop.has_first_bounce() ? 1 : 0;
     const std::size_t count = bounces_to_tell == BouncesToTell::all ? bounces : first;
     for (std::size_t k = 0; k < count; ++k) csv += drop_row(film, k);
@@ -208,14 +208,14 @@ Json board_json(const std::vector<vision::Point>& board) {
   return board.empty() ? Json() : places_json(board);
 }
 
-/// Where millimetres come from.
+/// The source of millimetres.
 template <typename Track>
 const char* scale_json(const Track& track, const char* otherwise) {
   if (!track.has_scale) return otherwise;
   return track.board.empty() ? "given" : "board";
 }
 
-/// What is known of the path that has bounces.
+/// Everything known about a path with bounces.
 Json drop_track_json(const vision::DropTrack& drop) {
   Json gravity = nullptr, gravity_uncertainty = nullptr;
   if (drop.gravity_m_s2) {
@@ -277,7 +277,7 @@ Json tilt_track_json(const vision::TiltTrack& tilt) {
           {"path", path_json(tilt.places)}};
 }
 
-/// What only the films of one experiment have.
+/// Fields specific to one experiment's films.
 void add_readings(const TrackedFilm& film, Json& json) {
   const bool has_track = has_reading(film);
   if (film.filmed == vision::Filmed::drop) {

@@ -12,9 +12,9 @@
 #include "calibrate/particles/particle_columns.h"
 #include "calibrate/particles/text_scanner.h"
 
-/// Dumps of LAMMPS and LIGGGHTS in text, styles atom and custom: time steps one after the other,
-/// each of sections that begin with "ITEM:".
-/// Source: LAMMPS documentation, command "dump", file format of these styles.
+/// Text dumps of LAMMPS and LIGGGHTS, styles atom and custom: consecutive time steps, each made of
+/// sections that begin with "ITEM:". Source: LAMMPS documentation, command "dump", file format of
+/// these styles.
 namespace repose::calibrate {
 namespace {
 
@@ -31,17 +31,17 @@ std::string unit_of_style(std::string_view style) {
   return {};
 }
 
-/// Lines before the first time step, or between two.
+/// Appears before the first time step, or between two.
 constexpr std::string_view kUnitsItem = "ITEM: UNITS";
 
-/// Where each time step begins, and what it is called.
+/// Where a time step begins, and its label.
 struct Step {
   std::size_t at = 0;
   int line = 1;
   std::string label;
 };
 
-/// @param unit  is set where the file says it, which it does once
+/// @param unit  set if the file states it, which it does once
 std::vector<Step> steps_of(std::string_view text, std::string& unit) {
   std::vector<Step> steps;
   TextScanner scanner(text);
@@ -186,7 +186,7 @@ class StepReader {
 
   const std::string& file_;
   TextScanner scanner_;
-  int line_;  ///< of what is read next
+  int line_;  ///< of the next line to read
   std::string step_;
   std::string fix_;
   std::optional<std::size_t> count_;

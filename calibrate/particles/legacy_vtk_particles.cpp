@@ -22,7 +22,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// Numbers as the binary form has them, the most significant byte first.
+/// Number types of the binary form, big-endian.
 enum class NumberKind { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 
 std::optional<NumberKind> kind_named(std::string_view name) {
@@ -197,7 +197,7 @@ class LegacyReader {
       if (small(scanner_.word()) == "lookup_table") {
         scanner_.word();
       } else {
-        scanner_.move_to(before - 1);  // the end of the line, behind which bytes begin
+        scanner_.move_to(before - 1);  // the end of the line, after which the bytes begin
       }
       take_array(name, components, values_, of);
     } else if (word == "vectors" || word == "normals") {
@@ -240,7 +240,7 @@ class LegacyReader {
     }
   }
 
-  /// Cells of either kind: one list with counts, or offsets and connectivity.
+  /// Cells in either form: one list with counts, or offsets and connectivity.
   void skip_cells() {
     const std::size_t cells = count("cells"), size = count("cells");
     const std::size_t before = scanner_.at();
@@ -302,7 +302,7 @@ class LegacyReader {
       const std::string column = components == 1 ? name : fmt::format("{}:{}", name, part);
       found_.names.push_back(column);
       if (!is_of_use(column)) continue;
-      // Where the points are, they say; an array of that kind beside them is another one.
+      // Positions come from the points; another vector array with such a name is something else.
       if (name != "points" && components == 3) continue;
       ParticleColumn taken{.name = column, .values = {}};
       taken.values.reserve(values.size() / components);

@@ -26,7 +26,7 @@ struct LengthUnit {
   double m = 0;
 };
 
-/// Of files; the first five can be named by a person.
+/// Units in files; the user can name the first five.
 constexpr std::array<LengthUnit, 12> kUnits = {{{"m", 1},
                                                 {"cm", 1e-2},
                                                 {"mm", 1e-3},
@@ -48,7 +48,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(from, text.find_last_not_of(kAround) - from + 1);
 }
 
-/// Letters and digits alone, small.
+/// Only letters and digits, in lower case.
 std::string bare(std::string_view text) {
   std::string letters;
   for (const char letter : text) {
@@ -58,11 +58,11 @@ std::string bare(std::string_view text) {
   return letters;
 }
 
-/// A column's name and the unit that stands with it.
+/// A column's name and the unit given with it.
 struct Name {
   std::string bare;
   std::optional<double> unit_m;
-  std::string unit;  ///< as it is written, of a unit that is not known too
+  std::string unit;  ///< as written, even if unknown
 };
 
 Name split(std::string_view full) {
@@ -162,7 +162,7 @@ Role role_of(const std::string& name) {
 
 constexpr std::size_t kMostFaults = 10;
 
-/// A column that has a role, and the length of its numbers' unit.
+/// A column with a role, and the length of its unit.
 struct Length {
   const ParticleColumn* column = nullptr;
   Name name;
@@ -202,7 +202,8 @@ class Interpreter {
       const Role role = role_of(name.bare);
       if (role == Role::none) continue;
       const auto [found, is_new] = roles_.try_emplace(role, Length{&column, std::move(name)});
-      // The same numbers twice are no question; of clumps and steps the first column tells enough.
+      // Two columns with the same numbers are not ambiguous; for clumps and steps the first column
+      // is used.
       const bool is_number = role == Role::step || role == Role::grain;
       if (is_new || is_number || found->second.column->values == column.values) continue;
       fault(fmt::format("{} and {} may both be meant", found->second.column->name, column.name),
@@ -240,7 +241,7 @@ class Interpreter {
     return found;
   }
 
-  /// What the header says, else what the file says of itself, else what a person says.
+  /// The unit in the header, else that of the file, else that given by the user.
   void choose_unit() {
     std::set<std::string> told, silent;
     for (Length* length : lengths()) {
@@ -277,7 +278,7 @@ class Interpreter {
     particles_.unit_m = roles_.contains(Role::x) ? roles_.at(Role::x).unit_m : 1;
   }
 
-  /// Of a table with the particles of several steps, those of one.
+  /// In a table with several time steps, selects the rows of one.
   void choose_rows() {
     const std::size_t count = roles_.at(Role::x).column->values.size();
     const auto step = roles_.find(Role::step);
@@ -355,7 +356,7 @@ class Interpreter {
     }
   }
 
-  /// Programs write 0 or -1 for a particle that is part of no clump, and some one number for all.
+  /// Programs write 0 or -1 for particles outside clumps; some write one number for all particles.
   void read_grains() {
     const auto grain = roles_.find(Role::grain);
     if (grain == roles_.end()) return;
@@ -419,7 +420,7 @@ Particles particles_of(ParticleColumns columns, const ParticleReading& reading) 
 std::size_t chosen_step(const std::string& file, const std::vector<std::string>& labels,
                         const ParticleReading& reading) {
   if (!reading.step) {
-    // The latest, wherever it stands.
+    // The latest, wherever it is in the file.
     std::size_t latest = 0;
     for (std::size_t k = 1; k < labels.size(); ++k) {
       const auto label = TextScanner::number(labels[k]);

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A kind of file: how it begins, how such files are called, and who reads it.
+/// A file format: how files begin, their endings, and their reader.
 struct ParticleFormat {
   std::string_view name;
   std::array<std::string_view, 2> begins;  ///< empty: not used
@@ -28,7 +28,7 @@ struct ParticleFormat {
                           const ParticleReading& reading);
 };
 
-/// The last one takes what no other one does.
+/// The last one takes everything that the others do not.
 constexpr std::array<ParticleFormat, 4> kFormats = {
     {{"LIGGGHTS or LAMMPS dump (text)",
       {"ITEM:", ""},

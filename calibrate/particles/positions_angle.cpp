@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether repose wrote a file, which then knows its unit, its plate and what is up.
+/// Whether repose wrote the file, so that unit, plate and up direction are known.
 bool is_state_file(const fs::path& file) {
   if (file.extension() != ".vtp") return false;
   const auto text = base::read_file_if_there(file);
@@ -53,7 +53,7 @@ PositionsFile state_in(const fs::path& file, const PositionsOptions& options) {
   return found;
 }
 
-/// What the places say against the heap, beside its views.
+/// Adds warnings based on the particle positions to those of the views.
 void judge(const StandingHeap& standing, vision::ReposeAngle& heap) {
   if (heap.status == vision::MeasureStatus::refused) return;
   if (standing.in_the_air > 0) {
@@ -77,7 +77,7 @@ void judge(const StandingHeap& standing, vision::ReposeAngle& heap) {
   }
 }
 
-/// The scale of drawn views is exact; sizes scatter between them.
+/// The scale of rendered views is exact; sizes vary between views.
 vision::HeapSizes sizes_of(const MeasuredPositions& measured) {
   vision::HeapSizes sizes;
   if (measured.mm_per_px == 0) {
@@ -90,7 +90,7 @@ vision::HeapSizes sizes_of(const MeasuredPositions& measured) {
       [&](std::optional<double> vision::ReposeAngle::*pixels) -> std::optional<vision::Estimate> {
     const auto found = summary_of_views(measured.views, pixels);
     if (!found) return std::nullopt;
-    // An edge is drawn within half a pixel.
+    // Edges are drawn to within half a pixel.
     const double edge_px = std::hypot(found->mean_uncertainty.value_or(0), .5);
     return vision::Estimate{.value = measured.mm_per_px * found->mean,
                             .uncertainty = measured.mm_per_px * edge_px};

@@ -15,53 +15,55 @@
 #include "vision/measure/repose_angle.h"
 #include "vision/picture/picture.h"
 
-/// The angle of a heap whose particles' places are in a file: drawn from all around as simulated
-/// heaps are, each view measured like a photograph.
+/// The angle of a heap whose particle positions are in a file: rendered from all around like
+/// simulated heaps, each view measured like a photograph.
 namespace repose::calibrate {
 
-/// What is told of such files.
+/// What the user states about such files.
 struct PositionsOptions {
   ParticleReading reading;
   HeapPlacement placement;
 };
 
-/// What repose's own files are called.
+/// Format name of repose's own files.
 inline constexpr std::string_view kStateFormat = "state of repose";
 
-/// A file with places, ready to be drawn.
+/// A file of positions, ready to be drawn.
 struct PositionsFile {
   StandingHeap heap;
   std::string format;  ///< "LIGGGHTS or LAMMPS dump"; "state of repose"
-  std::string unit;    ///< of the file's numbers; empty: not known
-  std::string step;    ///< of several, the one that is read
+  std::string unit;    ///< of the file's numbers; empty: unknown
+  std::string step;    ///< the one that was read, if there are several
   int steps = 1;
   bool has_clumps = false;
   Up up = Up::z;
 
-  /// What was made of it, for people: "step 120000, the last of 12; ...".
+  /// How it was interpreted, for people: "step 120000, the last of 12; ...".
   std::string text() const;
   bool is_state() const { return format == kStateFormat; }
 };
 
-/// States of repose too, which know all that is told of other files.
-/// @throws base::InputError  as read_particles() and standing_heap(), or options that a state does
-///   not need.
+/// Also reads repose's own states, which need none of the options.
+/// @throws base::InputError  as read_particles() and standing_heap(), or options given for a state,
+///   which needs none.
 PositionsFile read_positions(const std::filesystem::path& file, const PositionsOptions& options);
 
 struct MeasuredPositions {
   PositionsFile file;
-  /// From sides equally spaced over half a turn; without outline and edges, but for the first.
+  /// From directions equally spaced over half a turn; only the first has outline and edges.
   std::vector<vision::ReposeAngle> views;
   vision::Picture first_picture;            ///< the first view's
   std::optional<double> between_views_rad;  ///< standard deviation
-  /// As mean_of_views(); flagged, too, where particles hang in the air or overlap deeply.
+  /// As mean_of_views(); also flagged if particles hang in the air or overlap deeply.
   vision::ReposeAngle angle;
-  double mm_per_px = 0;  ///< 0: no unit is known
+  double mm_per_px = 0;  ///< 0: the unit is unknown
   vision::HeapSizes sizes;
 };
 
-/// The same at any number of threads.
-/// @param report  told which fraction is done, from any thread; what it throws ends the work
+/// The result does not depend on the number of threads.
+/// @param report  called with the completed fraction, from any thread; an exception from it ends
+/// the
+///   work
 /// @throws base::InputError  as read_positions(), and vision::measure_repose_angle().
 MeasuredPositions measure_positions(const std::filesystem::path& file,
                                     const PositionsOptions& options,

@@ -24,15 +24,15 @@ using Indices = std::vector<std::size_t>;
 
 constexpr double kTouch = .1;     // of the smaller radius
 constexpr double kStands = .2;    // of the median radius
-constexpr double kStanding = .5;  // of n^(2/3) grains
+constexpr double kStanding = .5;  // of n^(2/3), n the number of grains
 constexpr std::size_t kFewestStanding = 3;
 constexpr double kMostInTheAir = .05;  // of the grains
 constexpr double kSecondHeap = .1;     // of the first one's grains
-constexpr double kLowestHeap = 2.5;    // grains, as simulated heaps have it
-constexpr double kHangsTogether = .3;  // of the grains, at least, are the heap
+constexpr double kLowestHeap = 2.5;    // grains, as for simulated heaps
+constexpr double kHangsTogether = .3;  // of the grains, at least, belong to the heap
 constexpr double kDeep = .4;           // overlap, of the smaller radius
 
-/// The file's axis that an axis of the heap is, and its sign.
+/// Rotates a position from the file's axes to the heap's.
 Vector turned(const Vector& place, Up up) {
   switch (up) {
     case Up::x:
@@ -59,7 +59,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Sets that grow together.
+/// Disjoint sets (union-find).
 class Groups {
  public:
   explicit Groups(std::size_t count) : parent_(count) {
@@ -78,8 +78,8 @@ class Groups {
   Indices parent_;
 };
 
-/// Finds spheres that touch: each level has those of sizes within a factor of two in cells as wide
-/// as the largest.
+/// Finds touching spheres: each level holds those with sizes within a factor of two, in cells as
+/// wide as the largest.
 class Neighbours {
  public:
   explicit Neighbours(const std::vector<ClumpSphere>& spheres) : spheres_(spheres) {
@@ -130,12 +130,12 @@ class Neighbours {
     std::vector<std::pair<std::uint64_t, std::size_t>> cells;
   };
 
-  static constexpr std::int64_t kHalf = 1 << 20;  // cells to either side of the middle
+  static constexpr std::int64_t kHalf = 1 << 20;  // cells on either side of the middle
 
   Cell cell_of(std::size_t k, double cell) const {
     Cell at{};
     for (int axis = 0; axis < 3; ++axis) {
-      // Of numbers near the largest there are, neither the difference nor the cell is finite.
+      // For numbers near the largest double, neither the difference nor the cell is finite.
       const double apart = std::floor((spheres_[k].centre[axis] - origin_[axis]) / cell);
       const double place = std::isnan(apart) ? 0 : apart;
       at[static_cast<std::size_t>(axis)] =
@@ -175,7 +175,7 @@ class Neighbours {
   std::vector<Level> levels_;
 };
 
-/// What hangs together.
+/// A connected component.
 struct Component {
   Indices grains;
   double lowest = std::numeric_limits<double>::infinity();
@@ -215,7 +215,7 @@ class Field {
   double lowest(std::size_t grain) const { return lowest_[grain]; }
   double radius() const { return radius_; }
 
-  /// Of grains that `counts`, the one with most grains first.
+  /// Components of the grains for which `counts` is true, largest first.
   std::vector<Component> components(const std::vector<bool>& counts) const {
     Groups groups(grains());
     Neighbours(spheres_).each_pair([&](std::size_t one, std::size_t other) {
@@ -243,7 +243,7 @@ class Field {
     return all;
   }
 
-  /// Of spheres of different grains that touch, how many per cent overlap deeply.
+  /// Percentage of touching spheres of different grains that overlap deeply.
   double deep_percent() const {
     std::size_t pairs = 0, deep = 0;
     Neighbours(spheres_).each_pair([&](std::size_t one, std::size_t other) {
@@ -257,7 +257,7 @@ class Field {
     return pairs == 0 ? 0 : kPercent * static_cast<double>(deep) / static_cast<double>(pairs);
   }
 
-  /// Where the lowest grains of a component stand; none: too few do.
+  /// Height at which a component's lowest grains stand; std::nullopt: too few do.
   std::optional<double> plate_under(const Component& component) const {
     std::vector<double> standing;
     for (const std::size_t grain : component.grains) {
@@ -320,13 +320,13 @@ class Placer {
     throw base::InputError({.where = file_, .value = std::move(what), .fix = std::move(fix)});
   }
 
-  /// "z", of the file.
+  /// The file's vertical axis: "z".
   std::string axis() const {
     const std::string_view name = name_of(placement_.up);
     return std::string(name.substr(name.size() - 1));
   }
   double as_in_file(double height) const {
-    // Places have few digits: a plate at 0 is found at 1e-10.
+    // Positions have few digits: a plate at 0 is found at 1e-10.
     const double step = 1e-5 * field_.radius();
     const double rounded = step * std::round(height / step);
     return (is_down(placement_.up) ? -1 : 1) * rounded / particles_.unit_m;
@@ -335,7 +335,7 @@ class Placer {
     return (is_down(placement_.up) ? -1 : 1) * *placement_.plate * particles_.unit_m;
   }
 
-  /// Grains whose lowest point lies more than a radius below the plate.
+  /// Excludes grains whose lowest point is more than a radius below the plate.
   void leave_below(double plate, std::vector<bool>& counts) {
     for (std::size_t grain = 0; grain < field_.grains(); ++grain) {
       if (field_.lowest(grain) >= plate - field_.radius()) continue;
@@ -425,10 +425,10 @@ class Placer {
            "write the particles of each heap to a file of its own.");
   }
 
-  /// Spheres of many sizes are drawn in classes: in steps of .5 % of the radius, which at 40 pixels
-  /// to a grain, the most there are, moves an edge by up to .05 pixels.
+  /// If there are many sizes, they are binned in steps of .5 % of the radius: at the maximum of 40
+  /// pixels per grain this shifts an edge by up to .05 pixels.
   void draw(double plate, const std::vector<bool>& counts) {
-    constexpr std::size_t kFew = 64;  // sizes that are drawn as they are
+    constexpr std::size_t kFew = 64;  // sizes drawn exactly
     constexpr double kClass = .005;
     constexpr double kUsualRadius_m = 1e-3;
     const double scale = heap_.has_unit ? 1 : kUsualRadius_m / field_.radius();
@@ -443,7 +443,7 @@ class Placer {
       return scale * field_.radius() * std::exp(step * std::log1p(kClass));
     };
     sizes.clear();
-    // Cameras take the first shape for the size of the grains.
+    // Cameras use the first shape as the grain size.
     heap_.scene.shapes.push_back(dem::sphere_shape(size_of(field_.radius())));
     sizes.emplace(size_of(field_.radius()), 0);
     std::vector<bool> is_drawn(field_.grains(), false);

@@ -14,7 +14,8 @@
 #include "calibrate/particles/text_scanner.h"
 #include "calibrate/statistics/table/table.h"
 
-/// Tables of particles: of spreadsheets, of columns parted by blanks, and as EDEM exports results.
+/// Tables of particles: from spreadsheets, with columns separated by blanks, and EDEM's result
+/// exports.
 namespace repose::calibrate {
 namespace {
 
@@ -49,7 +50,7 @@ char delimiter_in(std::string_view line) {
   return kBlanks;
 }
 
-/// Comments of programs: "# x y z r", and YADE's "#format x_y_z_r".
+/// Comment marks of programs: "# x y z r", and YADE's "#format x_y_z_r".
 std::string_view without_comment_mark(std::string_view line) {
   if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   const std::size_t from = line.find_first_not_of("#% ");
@@ -63,7 +64,7 @@ bool is_query(std::string_view cell) {
 }
 
 struct Header {
-  std::size_t behind = 0;  ///< where the line after it begins
+  std::size_t behind = 0;  ///< where the next line begins
   int line = 0;
   std::string text;
   char delimiter = ',';
@@ -110,7 +111,7 @@ std::optional<Header> header_of(std::string_view text) {
        .fix = "write one; or give a dump of LIGGGHTS or LAMMPS, or a file of VTK."});
 }
 
-/// A row of units below the header goes into the names of the columns.
+/// A row of units below the header is moved into the column names.
 void take_row_of_units(Table& table) {
   if (table.rows.empty()) return;
   const auto is_unit = [](const std::string& cell) {
@@ -131,7 +132,7 @@ void take_row_of_units(Table& table) {
 
 ParticleColumns in_spreadsheet(const std::string& file, std::string_view text,
                                const Header& header) {
-  // What stands above the header becomes empty lines, so that rows keep the numbers of theirs.
+  // Lines above the header become empty, so that rows keep their line numbers.
   std::string cleaned(static_cast<std::size_t>(header.line - 1), '\n');
   cleaned += header.text;
   cleaned += '\n';
@@ -156,7 +157,7 @@ ParticleColumns in_spreadsheet(const std::string& file, std::string_view text,
   return found;
 }
 
-/// Columns parted by blanks: any number of them.
+/// Columns separated by any number of blanks.
 ParticleColumns in_blanks(const std::string& file, std::string_view text, const Header& header) {
   ParticleColumns found{
       .file = file, .format = "table", .columns = {}, .names = cells_of(header.text, kBlanks)};
@@ -204,9 +205,9 @@ struct EdemMoment {
   std::vector<ParticleColumn> columns;
 };
 
-/// What EDEM writes with File > Export > Results Data as text: for each time a line "TIME:", and
-/// the queries, "Q01 : Particle Position X:", each with its numbers behind it in the same line, or
-/// below it in a column. Source: Altair EDEM documentation, "Exporting Results Data".
+/// EDEM's text export (File > Export > Results Data): for each time a line "TIME:", and the
+/// queries, "Q01 : Particle Position X:", each with its numbers after it in the same line, or below
+/// it in a column. Source: Altair EDEM documentation, "Exporting Results Data".
 class EdemReader {
  public:
   EdemReader(const std::string& file, char delimiter) : file_(file), delimiter_(delimiter) {}
@@ -299,8 +300,8 @@ class EdemReader {
   const std::string& file_;
   char delimiter_;
   int line_ = 1;
-  std::size_t first_ = 0;  ///< of the columns below which numbers stand
-  std::size_t below_ = 0;  ///< how many these are; 0: none
+  std::size_t first_ = 0;  ///< of the columns with numbers below them
+  std::size_t below_ = 0;  ///< number of these; 0: none
   base::Faults faults_{kMaxRowErrors};
   std::vector<EdemMoment> moments_;
 };
@@ -327,7 +328,7 @@ ParticleColumns in_edem(const std::string& file, std::string_view text, const He
 ParticleColumns columns_in_table(const std::string& file, std::string_view text,
                                  const ParticleReading& reading) {
   const auto header = header_of(text);
-  // What is no text at all, and is of a spreadsheet, its reader names.
+  // For binary spreadsheet files, parse_table() gives the right error.
   if (!header && (text.starts_with("PK") || text.starts_with("\xFF\xFE") ||
                   text.starts_with("\xFE\xFF") || text.starts_with("\xD0\xCF"))) {
     parse_table(file, text);

@@ -8,7 +8,7 @@
 
 namespace repose::calibrate {
 
-/// Words of a text, parted by blanks and line ends, one after the other.
+/// Reads a text word by word, separated by blanks and line ends.
 class TextScanner {
  public:
   explicit TextScanner(std::string_view text) : text_(text) {}
@@ -25,7 +25,7 @@ class TextScanner {
     return text_.substr(from, at_ - from);
   }
 
-  /// What is left of the line, without its end.
+  /// The rest of the line, without its end.
   std::string_view line() {
     const std::size_t end = text_.find('\n', at_);
     std::string_view rest = text_.substr(at_, end == text_.npos ? text_.npos : end - at_);
@@ -34,8 +34,8 @@ class TextScanner {
     return rest;
   }
 
-  /// Of a word that is no number, none. "nan" and "inf" are numbers here: whoever uses them says
-  /// where they stand.
+  /// std::nullopt if the word is not a number. "nan" and "inf" are numbers here: the caller reports
+  /// where they occur.
   static std::optional<double> number(std::string_view word) {
     if (word.starts_with('+')) word.remove_prefix(1);
     double value = 0;

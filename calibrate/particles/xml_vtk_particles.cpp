@@ -69,7 +69,7 @@ class XmlReader {
          .fix = "copy it again, or write it with other settings or as CSV, with ParaView say."});
   }
 
-  /// What is appended as raw bytes is no XML: it is taken out before.
+  /// Appended raw bytes are not XML, so they are taken out first.
   void parse() {
     const std::size_t from = text_.find("<AppendedData");
     std::string xml(text_.substr(0, from));
@@ -180,7 +180,7 @@ class XmlReader {
     refuse(fmt::format("{}: values of type \"{}\"", name, type));
   }
 
-  /// Bytes one after the other, raw or out of base64, of which each part is encoded by itself.
+  /// A stream of bytes, raw or decoded from base64, where each part is encoded separately.
   class Stream {
    public:
     Stream(std::string_view text, bool is_raw) : text_(text), is_raw_(is_raw) {
@@ -188,7 +188,7 @@ class XmlReader {
       if (!is_raw_) text_.remove_prefix(from == text_.npos ? text_.size() : from);
     }
 
-    /// None where there are not so many.
+    /// std::nullopt if there are not enough.
     std::optional<Bytes> take(std::size_t count) {
       if (count > kMostBytes) return std::nullopt;
       const std::size_t size = is_raw_ ? count : (count + 2) / 3 * 4;
@@ -212,18 +212,18 @@ class XmlReader {
 
   std::uint64_t header_number(const Bytes& bytes, std::size_t place) const {
     const std::size_t size = header_is_long_ ? sizeof(std::uint64_t) : sizeof(std::uint32_t);
-    std::uint64_t number = 0;  // little-endian, as the machines that this runs on
+    std::uint64_t number = 0;  // little-endian, like the machines this runs on
     static_assert(std::endian::native == std::endian::little);
     std::memcpy(&number, bytes.data() + place * size, size);
     return number;
   }
 
-  /// An array's bytes behind its header.
+  /// An array's bytes after its header.
   Bytes payload(std::string_view text, bool is_raw, const std::string& name) const {
     const std::size_t size = header_is_long_ ? sizeof(std::uint64_t) : sizeof(std::uint32_t);
     const auto cut = [&]() { refuse(fmt::format("{} is cut short, or no base64", name)); };
     if (!is_compressed_) {
-      // Header and numbers are encoded as one.
+      // Header and numbers are encoded together.
       const auto header = Stream(text, is_raw).take(size);
       if (!header) cut();
       const std::uint64_t count = header_number(*header, 0);
@@ -259,7 +259,7 @@ class XmlReader {
     for (std::uint64_t k = 0; k < blocks; ++k) {
       const std::uint64_t full = k + 1 == blocks && last > 0 ? last : block;
       const std::uint64_t packed = header_number(header, 3 + k);
-      // zlib makes no more than 1032 bytes of one (its own documentation, "Maximum Compression").
+      // zlib expands a byte to at most 1032 bytes (its own documentation, "Maximum Compression").
       constexpr std::uint64_t kMostFold = 1032;
       if (packed > body.size() - at || full > kMostFold * packed ||
           bytes.size() + full > kMostBytes) {

@@ -16,11 +16,11 @@
 namespace repose::calibrate {
 namespace {
 
-// First of three places in Problem::parameters.
+// First of three indices in Problem::parameters.
 constexpr std::size_t kFirstOfWall = 0, kFirstOfGrains = 3;
 constexpr int kSweepLevels = 9;
 constexpr int kVerificationRuns = 10;
-// Of the steps k (.1, .1, .01): published for restitution, sliding and rolling friction.
+// Step k is at k (.1, .1, .01): published for restitution, sliding and rolling friction.
 constexpr std::array kStep = {.1, .1, .01};
 constexpr int kSteps = 5;
 
@@ -53,8 +53,8 @@ void require_all_sought(const Problem& problem) {
                           base::field("the joint method"))});
 }
 
-/// The values of a job: those of the set that the experiment does not depend on stay in the middle,
-/// so that equal runs have equal names.
+/// The values of a job: parameters that the experiment does not depend on stay at mid-range, so
+/// that equal runs have equal names.
 std::vector<double> values_for(const Problem& problem, const std::string& experiment,
                                const std::vector<double>& set) {
   std::vector<double> values;
@@ -124,8 +124,8 @@ class PublishedMethod {
     return true;
   }
 
-  /// The crossing nearest to the middle of the levels; where there is none, the end or vertex that
-  /// comes nearest.
+  /// The crossing nearest to the middle of the levels; if there is none, the end or vertex closest
+  /// to the measured value.
   static void solve(const Regression& parabola, PublishedSweep& swept) {
     swept.r2 = parabola.r2;
     const TargetSet solved = solve_target(parabola, {swept.measured});

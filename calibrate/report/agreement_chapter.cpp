@@ -13,8 +13,8 @@
 namespace repose::calibrate::report {
 namespace {
 
-/// Of a scatter that was assumed as if it were known; else of as many readings as there were. What
-/// they share is known as well as it is stated.
+/// An assumed scatter counts as exactly known; otherwise the number of readings matters. The shared
+/// part of the uncertainty counts as stated.
 double bench_half_width(const ResultObservable& observable) {
   const double uncertainty = observable.measured_uncertainty;
   if (observable.sd_assumed) return half_width_95(uncertainty);
@@ -24,7 +24,8 @@ double bench_half_width(const ResultObservable& observable) {
                     half_width_95(shared));
 }
 
-/// The page's own: what was measured and simulated, how far apart they may be, and the verdict.
+/// The page's short table: measured and simulated values, the tolerance of their difference, and
+/// the verdict.
 Table brief_agreement_table(const JointResult& joint) {
   Table table{.name = {},
               .title =
@@ -64,7 +65,7 @@ Table brief_predictions_table(const JointResult& joint) {
   return table;
 }
 
-/// Of all measured quantities, in full.
+/// All measured quantities, in full.
 Table agreement_table(const JointResult& joint) {
   Table table{.name = "agreement",
               .title =
@@ -90,7 +91,7 @@ Table agreement_table(const JointResult& joint) {
   return table;
 }
 
-/// Of readings that were not simulated again: what surfaces through the runs give.
+/// For readings not simulated again: values from surfaces through the runs.
 Table fitted_table(const JointResult& joint) {
   Table table{
       .name = "fitted",
@@ -283,7 +284,7 @@ Table candidates_table(const JointResult& joint) {
   return table;
 }
 
-/// What this rolling model was weighed against.
+/// The models that this rolling model was compared with.
 void add_candidates(const JointResult& joint, Chapter& chapter) {
   if (joint.candidates.size() < 2) return;
   chapter.blocks.push_back(candidates_table(joint));

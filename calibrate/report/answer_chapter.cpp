@@ -21,8 +21,8 @@ std::string conditional_verdict(const JointResult& joint, const ResultParameter&
 
 constexpr std::size_t kLongestSentence = 2000;
 
-/// To be read on any screen and pasted into any document: short cells of plain text. Numbers of the
-/// same are in uncertainty_table().
+/// For reading on any screen and pasting into any document: short cells of plain text. Its numbers
+/// are in uncertainty_table().
 Table answer_table(const JointResult& joint) {
   Table table{.name = {},
               .title = has_open_coefficients(joint)
@@ -63,7 +63,7 @@ Table sets_table(const JointResult& joint) {
   return table;
 }
 
-/// Where coefficients have no value of their own, what can be used in their place.
+/// If coefficients are not determined individually, the sets that can be used instead.
 void add_sets(const JointResult& joint, Chapter& chapter) {
   if (joint.equivalence_family.empty()) return;
   if (has_open_coefficients(joint)) chapter.blocks.push_back(Remark{kUseOneRow});
@@ -80,7 +80,7 @@ std::vector<std::string> advice_of(const JointResult& joint) {
   return advice;
 }
 
-/// Below each other, a blank line between them.
+/// One after another, separated by blank lines.
 std::string lines_of(const std::vector<StudyAddition>& additions) {
   std::string lines;
   for (const StudyAddition& addition : additions) {
@@ -218,7 +218,7 @@ Table uncertainty_table(const JointResult& joint) {
   return table;
 }
 
-/// What computing and measuring more would do to the widths of the intervals.
+/// How more computing and more measurements would change the widths of the intervals.
 Table narrowing_table(const JointResult& joint) {
   Table table{.name = "narrowing",
               .title = "Width of the 95 % interval: current and predicted",
@@ -227,7 +227,7 @@ Table narrowing_table(const JointResult& joint) {
                                    {.name = "exact simulation", .unit = {}, .decimals = 3},
                                    {.name = "four times the readings", .unit = {}, .decimals = 3}},
                        .rows = {}}};
-  // Of another program's runs nobody knows how many an hour makes.
+  // For another program, the number of runs per hour is unknown.
   const bool has_hours = std::ranges::any_of(joint.parameters, [](const ResultParameter& one) {
     return one.narrowing && one.narrowing->hour;
   });

@@ -8,7 +8,7 @@ namespace repose::calibrate::report {
 
 namespace {
 
-/// Each input with the coefficients that it moves.
+/// Each input with the coefficients that it affects.
 Table inputs_table(const JointResult& joint) {
   Table table{.name = "assumed_inputs",
               .title = "Each by itself, larger by its standard uncertainty",

@@ -10,7 +10,7 @@
 
 #include "vision/drawing/overlay.h"
 
-/// What a report says, before it becomes a page: chapters of text, tables, charts and pictures.
+/// The content of a report before it becomes a page: chapters of text, tables, charts and pictures.
 
 namespace repose::calibrate::report {
 
@@ -20,10 +20,10 @@ using Cell = std::variant<std::monostate, double, std::string>;
 struct Column {
   std::string name;
   std::string unit;                  ///< "" without one
-  std::optional<int> decimals = {};  ///< as shown; without it four significant digits
+  std::optional<int> decimals = {};  ///< as shown; std::nullopt: four significant digits
 };
 
-/// Rows of named columns: what a chart draws, a page shows and a CSV file holds.
+/// Rows of named columns, as drawn in a chart, shown in a page and saved in a CSV file.
 struct DataTable {
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
@@ -31,7 +31,7 @@ struct DataTable {
   void add(std::vector<Cell> row) { rows.push_back(std::move(row)); }
 };
 
-/// How a part of a chart looks. Each differs from the others in black and white, too.
+/// The style of a chart's layer. All can be told apart in black and white, too.
 enum class Look {
   runs,      ///< small open circles
   dots,      ///< filled circles
@@ -40,11 +40,11 @@ enum class Look {
   band,      ///< a light band from `low` to `high`
   scatter,   ///< thin dotted lines at `low` and `high`
   measured,  ///< a dashed level with a band
-  best,      ///< a large diamond, with its interval where there is one
+  best,      ///< a large diamond, with its interval if it has one
   limit,     ///< a thin dash-dotted level
-  line,      ///< one of several alike lines, each with its dashes and marker
+  line,      ///< one of several similar lines, each with its own dashes and marker
   grid,      ///< heights over a grid: contours
-  ridge,     ///< where the surface has the measured value
+  ridge,     ///< where the surface equals the measured value
 };
 
 /// The rows of a chart's table whose first column is `series`, which is also its name in the
@@ -55,16 +55,16 @@ struct Layer {
 };
 
 enum class ChartKind {
-  plane,    ///< columns: series, x, y, and low, high where a look needs them
+  plane,    ///< columns: series, x, y, and low, high if a look needs them
   contour,  ///< columns: series, x, y, z
   heap,     ///< columns: series, kind, three coordinates or corners, a rotation w x y z
 };
 
-/// Of red, green and blue, 0 to 1.
+/// Red, green and blue, 0 to 1.
 using ChartColour = std::array<double, 3>;
 
 struct Chart {
-  std::string name;  ///< of its CSV file; letters, digits and _
+  std::string name;  ///< of its CSV file: letters, digits and _
   ChartKind kind = ChartKind::plane;
   std::string title;
   std::string caption;  ///< what to see in it
@@ -73,17 +73,17 @@ struct Chart {
   std::string z_title;
   std::optional<std::array<double, 2>> y_range = {};
   bool has_whole_x = false;                ///< x counts something
-  std::optional<ChartColour> colour = {};  ///< of grains; none: brown
+  std::optional<ChartColour> colour = {};  ///< of grains; std::nullopt: brown
   std::vector<Layer> layers = {};
   DataTable data = {};
 };
 
-/// Charts beside each other as far as the page is wide.
+/// Charts side by side, as many as fit the page's width.
 struct ChartRow {
   std::vector<Chart> charts;
 };
 
-/// One of the page's contour charts at a time, as a surface that can be turned.
+/// Shows one of the page's contour charts at a time as a rotatable surface.
 struct SurfaceViewer {
   std::string caption;
 };
@@ -92,23 +92,24 @@ struct Table {
   std::string name;  ///< of its CSV file; empty: none
   std::string title;
   DataTable data;
-  /// Columns by place: value, low, high, min, max. Drawn as a strip from min to max at each row's
+  /// Column indices of value, low, high, min, max, drawn as a strip from min to max at each row's
   /// end.
   std::optional<std::array<std::size_t, 5>> strip = {};
 };
 
-/// JPEG in the page itself.
+/// JPEG embedded in the page.
 struct ShownPicture {
   std::string data_uri;
   int width = 0;
   int height = 0;
   std::string alt;
   std::string caption;
-  /// Of the picture that it shows, whose pixels are told where one points; 0: they are not.
+  /// Size of the measured picture, whose pixel coordinates are shown under the pointer; 0: not
+  /// shown.
   int picture_width = 0;
   int picture_height = 0;
   vision::OverlaidArea area = {};
-  std::string command = {};  ///< that gives the same; empty: none
+  std::string command = {};  ///< that gives the same picture; empty: none
 };
 
 struct PictureRow {
@@ -141,13 +142,13 @@ struct Chapter {
   std::string id;
   std::string title;
   std::vector<Block> blocks;
-  bool is_appendix = false;  ///< for who wants to check: after all others
+  bool is_appendix = false;  ///< for checking; placed after all other chapters
 };
 
 struct Document {
   std::string title;
   std::string kind;   ///< "Calibration", "Angles of repose"
-  std::string state;  ///< "" or why this is not the whole story
+  std::string state;  ///< "" or why the report is incomplete
   std::vector<Chapter> chapters;
   std::string program;
 };
@@ -156,7 +157,7 @@ struct Document {
 Chart plane_chart(const std::string& name, const std::string& title, const Column& x,
                   const Column& y);
 
-/// Adds a layer, unless it is there already, and one row of it.
+/// Adds one row to a layer, which is added first if it does not exist.
 void add_point(Chart& chart, const std::string& series, Look look, Cell x, Cell y, Cell low = {},
                Cell high = {});
 
@@ -164,8 +165,8 @@ void add_point(Chart& chart, const std::string& series, Look look, Cell x, Cell 
 void add_level(Chart& chart, const std::string& series, Look look, std::array<double, 2> x_range,
                double y, double low, double high);
 
-/// Where a surface over a grid takes a value: the crossings of the lines between neighbours,
-/// straight between them. `heights[row][column]` belongs to y[row], x[column].
+/// Where a surface over a grid takes a value: crossings on the edges between neighbouring points,
+/// linearly interpolated. `heights[row][column]` belongs to y[row], x[column].
 std::vector<std::array<double, 2>> ridge_of(const std::vector<double>& x,
                                             const std::vector<double>& y,
                                             const std::vector<std::vector<double>>& heights,

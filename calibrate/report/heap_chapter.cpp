@@ -32,16 +32,16 @@ namespace {
 
 constexpr int kShownViews = 3;
 constexpr double kNothing_deg = 360;        // farther off than any angle
-constexpr std::size_t kFewPhotographs = 6;  // that fit on half a page
+constexpr std::size_t kFewPhotographs = 6;  // number that fits on half a page
 
-/// A picture, or a film's heap at rest, and what was measured in it.
+/// A picture, or a film's heap at rest, and its measurement.
 struct MeasuredHeap {
   std::string title;
   vision::Picture picture;
   vision::ReposeAngle angle;
 };
 
-/// Whether the coefficients reported are others than those of the last check.
+/// Whether the reported coefficients differ from those of the last check.
 bool has_moved(const StudyResult& result) {
   const auto* joint = std::get_if<JointResult>(&result.found);
   if (joint == nullptr) return false;
@@ -111,7 +111,7 @@ std::optional<MeasuredHeap> measured_photograph(const PictureReading& picture,
   }
 }
 
-/// The place of the photograph that stands for all of them; none where none gave an angle.
+/// Index of the representative photograph; std::nullopt if none gave an angle.
 std::optional<std::size_t> most_typical(const std::vector<MeasuredHeap>& heaps) {
   std::vector<PictureAngle> angles;
   for (const MeasuredHeap& heap : heaps) {
@@ -132,7 +132,7 @@ std::optional<std::size_t> most_typical(const std::vector<MeasuredHeap>& heaps) 
   return best;
 }
 
-/// The photographs; returns the one that stands for them.
+/// Adds the photographs; returns the representative one.
 std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPictures& shown) {
   const int side_px = longest_side_px(study.pictures.size());
   shown.is_scanned = std::ranges::any_of(study.pictures, [](const PictureReading& picture) {
@@ -152,7 +152,7 @@ std::optional<MeasuredHeap> show_photographs(const ReportedStudy& study, HeapPic
   return std::move(heaps[*shown.best_photograph]);
 }
 
-/// The camera that the study's photographs were taken with, if it says so.
+/// The camera of the study's photographs, if stated.
 std::optional<dem::LevelCamera> stated_camera(const ReportedStudy& study) {
   if (!study.record) return std::nullopt;
   const auto& experiments = study.record->study.experiments;
@@ -221,7 +221,7 @@ Chart outline_chart(const vision::HeapComparison& comparison) {
       "differ; slopes should not.";
   const std::array<std::string, 2> names = {"bench", "simulation"};
   for (std::size_t k = 0; k < names.size(); ++k) {
-    // More points than a page is wide show nothing more.
+    // More points than the page is wide would show nothing more.
     constexpr std::size_t kMaxPoints = 600;
     const auto& outline = comparison.outlines[k];
     const std::size_t stride = outline.size() / kMaxPoints + 1;
@@ -254,7 +254,7 @@ void compare(const MeasuredHeap& photograph, const MeasuredHeap& simulated, Heap
   shown.comparison = comparison_table(comparison);
 }
 
-/// By which the study reads its heaps; empty: by the usual one.
+/// The definition by which the study reads its heaps; empty: the default.
 std::string definition_of(const ReportedStudy& study) {
   if (!study.record) return {};
   const auto& experiments = study.record->study.experiments;

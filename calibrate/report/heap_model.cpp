@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxGrains = 2500;
 
-/// A sphere of triangles, radius 1: an octahedron whose faces are divided so many times.
+/// A triangulated sphere of radius 1: an octahedron whose faces are subdivided `divisions` times.
 dem::Mesh unit_sphere(int divisions) {
   dem::Mesh sphere{
       .vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
@@ -43,8 +43,8 @@ dem::Mesh unit_sphere(int divisions) {
   return sphere;
 }
 
-/// How far the shape reaches in a direction from its centre, m: of its surface's corners that lie
-/// nearly in that direction the farthest, else as far as its spheres do.
+/// Extent of the shape from its centre in a direction, m: the farthest surface vertex that lies
+/// nearly in that direction, otherwise the extent of its spheres.
 double radius_along(const dem::ClumpShape& shape, const dem::Vector& direction) {
   constexpr double kNearly = 0.97;
   double radius = 0;
@@ -76,7 +76,8 @@ void add_shape(DataTable& data, const dem::ClumpShape& shape, int number, const 
   }
 }
 
-/// From the highest of every place on the ground down, as many as a page can hold.
+/// As many grains as a page can hold: first the highest at every place on the ground, then those
+/// below.
 std::vector<render::PlacedGrain> seen_first(const render::Scene& scene, double cell_m) {
   std::vector<render::PlacedGrain> grains = scene.grains;
   if (grains.size() <= kMaxGrains) return grains;

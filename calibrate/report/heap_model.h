@@ -5,8 +5,8 @@
 
 namespace repose::calibrate::report {
 
-/// The grains of a heap as a chart that can be rotated: each with few triangles, lengths in mm. Of
-/// heaps too large for a page the grains are left out that lie below others.
+/// The grains of a heap as a rotatable chart: few triangles per grain, lengths in mm. If the heap
+/// is too large for a page, grains that lie below others are omitted.
 Chart heap_model(const render::Scene& scene);
 
 }  // namespace repose::calibrate::report

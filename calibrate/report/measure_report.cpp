@@ -123,9 +123,9 @@ Table pictures_table(const std::vector<MeasuredPhotograph>& pictures) {
   return table;
 }
 
-constexpr std::size_t kManyPictures = 40;  // more names than fit below a chart
+constexpr std::size_t kManyPictures = 40;  // more than names fit below a chart
 
-/// The angles, and a little more than their error bars; long bars are cut.
+/// A range of angles slightly larger than their error bars; long bars are cut off.
 std::array<double, 2> range_of(const Chart& chart) {
   constexpr double kLongest_deg = 12, kRoom_deg = 1, kUpright_deg = 90;
   double low = kUpright_deg, high = 0;
@@ -142,7 +142,8 @@ std::array<double, 2> range_of(const Chart& chart) {
           std::min(kUpright_deg, std::ceil(high + kRoom_deg))};
 }
 
-/// Each picture's angle with its interval, in the order of the pictures, and the mean with its own.
+/// Each picture's angle with its interval, in the order of the pictures, and the mean with its
+/// interval.
 Chart angles_chart(const std::vector<MeasuredPhotograph>& pictures,
                    const std::optional<calibrate::Summary>& mean) {
   Chart chart = plane_chart("angles", "Angles", {.name = "picture", .unit = {}},

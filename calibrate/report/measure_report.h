@@ -11,37 +11,38 @@
 
 namespace repose::calibrate::report {
 
-/// A picture as it is put into a page.
+/// A picture as embedded in a page.
 struct PageJpeg {
   std::vector<std::uint8_t> bytes;
   int width = 0;
   int height = 0;
-  /// Of the picture that is measured in it; 0: its pixels are not told.
+  /// Size of the measured picture that it shows; 0: its pixel coordinates are not shown.
   int picture_width = 0;
   int picture_height = 0;
   vision::OverlaidArea area = {};
 };
 
-/// A picture with what was measured drawn in, as large as a page with so many has room for.
+/// A picture with the measurement drawn in, as large as a page with that many pictures has room
+/// for.
 PageJpeg overlay_for_page(const vision::Picture& picture, const vision::ReposeAngle& angle,
                           const vision::OverlayNotes& notes, std::size_t pictures);
 
-/// An overlay that is drawn already, as of a scan, likewise.
+/// The same for an overlay that is already drawn, such as a scan's.
 PageJpeg page_overlay(const vision::Picture& overlay, std::size_t pictures);
 
 /// A picture of a batch.
 struct MeasuredPhotograph {
   std::string file;
-  std::string error;          ///< why it was not read; empty: it was
+  std::string error;          ///< why it could not be read; empty: it was read
   vision::ReposeAngle angle;  ///< or the refusal
-  PageJpeg overlay;           ///< without bytes: not shown
+  PageJpeg overlay;           ///< no bytes: not shown
   std::string heap = {};      ///< as calibrate::SetPicture::heap
-  std::string command = {};   ///< that measures it so; empty: not told
+  std::string command = {};   ///< that measures it this way; empty: not shown
 };
 
-/// A page about a batch of pictures, as `repose measure` measured them: the mean of those that
-/// gave a number and its interval, each picture with its overlay, and why some gave no number.
-/// @param options  that they were measured with
+/// A page about a batch of pictures measured by `repose measure`: the mean of those that gave a
+/// number and its interval, each picture with its overlay, and why some gave no number.
+/// @param options  with which they were measured
 Report measure_report(const std::vector<MeasuredPhotograph>& pictures,
                       const vision::MeasureOptions& options = {});
 

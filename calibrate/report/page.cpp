@@ -80,7 +80,7 @@ const char* name_of(ChartKind kind) {
   return "heap";
 }
 
-/// Series, which stand in many rows one after the other: each with how often.
+/// Run-length encoding of series names, which repeat in consecutive rows.
 Json repeated(const Json& values) {
   Json runs = Json::array();
   for (const Json& value : values) {
@@ -196,7 +196,7 @@ namespace {
 
 using Dictionary = ctemplate::TemplateDictionary;
 
-/// How a column is laid out: numbers to the right, sentences with room.
+/// A column's layout class: numbers right-aligned, sentences with more width.
 const char* class_of(const DataTable& table, std::size_t column) {
   constexpr std::size_t kSentence = 60;
   const char* kind = "number";
@@ -209,7 +209,7 @@ const char* class_of(const DataTable& table, std::size_t column) {
   return kind;
 }
 
-/// From 0 to 200 along the strip.
+/// Position along the strip, 0 to 200.
 double place_in_strip(double value, double min, double max) {
   constexpr double kLength = 200;
   return max > min ? std::clamp(kLength * (value - min) / (max - min), 0.0, kLength) : 0;
@@ -329,7 +329,7 @@ std::string html_of(const Document& document) {
     page.AddSectionDictionary("STATE")->SetValue("TEXT", document.state);
   }
   bool is_appendix = false;
-  Dictionary* appendix = nullptr;  // whose chapters have a menu of their own
+  Dictionary* appendix = nullptr;  // whose chapters have their own menu
   for (const Chapter& chapter : document.chapters) {
     const bool begins_appendix = chapter.is_appendix && !is_appendix;
     is_appendix = chapter.is_appendix;
@@ -351,7 +351,7 @@ std::string html_of(const Document& document) {
   page.SetValueWithoutCopy("STYLE", without_copy(embedded_file("report/page/report.css")));
   page.SetValueWithoutCopy("SCRIPT", without_copy(embedded_file("report/page/report.js")));
   page.SetValueWithoutCopy("INFLATE", without_copy(embedded_file("report/page/inflate.js")));
-  // Its header has the time at which the program was built, and is not needed.
+  // The header contains the build time, and is not needed.
   constexpr std::size_t kGzipHeader = 10;
   const std::string_view plotly = embedded_file("plotly.min.js.gz").substr(kGzipHeader);
   const std::string packed = base::base64_of(std::as_bytes(std::span(plotly)));
@@ -365,7 +365,7 @@ std::string html_of(const Document& document) {
       !templates.ExpandWithData("report", ctemplate::DO_NOT_STRIP, &page, nullptr, &result)) {
     throw std::runtime_error("the report's template is damaged. Fix: rebuild repose.");
   }
-  return base::as_utf8(result);  // names of files need not be, the page says that it is
+  return base::as_utf8(result);  // file names need not be UTF-8, but the page is declared as such
 }
 
 }  // namespace repose::calibrate::report

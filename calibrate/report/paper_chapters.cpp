@@ -41,7 +41,7 @@ Chapter paper_answer(const PublishedResult& published, const HeapPictures& pictu
   return chapter;
 }
 
-/// A parabola through runs of one factor; none where they are too few or too alike.
+/// A parabola through runs of one factor; std::nullopt if they are too few or too similar.
 std::optional<Regression> regression_of(const std::string& name, const std::vector<Factor>& factors,
                                         const std::vector<std::vector<double>>& levels,
                                         const std::vector<double>& responses) {
@@ -138,7 +138,7 @@ Chapter grains_chapter(const PublishedResult& published) {
   struct Stage {
     const char* name = nullptr;
     const char* title = nullptr;
-    Look look = Look::points;  ///< steps follow each other, others do not
+    Look look = Look::points;  ///< points are joined for steps, not for others
     const std::vector<PublishedHeap>* heaps = nullptr;
   };
   const std::array<Stage, 3> stages = {

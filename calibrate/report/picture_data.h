@@ -8,16 +8,16 @@
 
 namespace repose::calibrate::report {
 
-/// The picture as JPEG, made smaller until no side is longer than that.
+/// The picture as JPEG, scaled down so that no side exceeds `longest_side_px`.
 PageJpeg page_jpeg(const vision::Picture& picture, int longest_side_px);
 
 ShownPicture shown_jpeg(const PageJpeg& jpeg, const std::string& alt, const std::string& caption);
 
-/// Both at once.
+/// page_jpeg() and shown_jpeg() in one call.
 ShownPicture shown_picture(const vision::Picture& picture, int longest_side_px,
                            const std::string& alt, const std::string& caption);
 
-/// How large so many pictures may be, so that the page stays one that can be sent by e-mail.
+/// Longest side for this number of pictures such that the page can still be sent by e-mail.
 int longest_side_px(std::size_t pictures);
 
 }  // namespace repose::calibrate::report

@@ -1,5 +1,5 @@
-// What was done on the bench and simulated: grain, wall, each experiment's settings, what was
-// measured, and which of it the study does not state.
+// What was done on the bench and in simulations: grain, wall, each experiment's settings,
+// measurements, and which of these the study does not state.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -22,8 +22,7 @@ namespace {
 
 constexpr double kMm = 1e3;
 
-/// The study's text as it stands in the folder, to see what it states; an empty table where it
-/// cannot be read.
+/// The study's text in the folder, to find out what it states; an empty table if it cannot be read.
 dem::ConfigValue stated_in(const ReportedStudy& study) {
   try {
     const std::string file = (study.folder / kStudyCopy).string();
@@ -38,7 +37,7 @@ const dem::ConfigValue* within(const dem::ConfigValue* table, const std::string&
   return table == nullptr ? nullptr : table->find(key);
 }
 
-/// What a study says of the place of a value: that it is there, and that it is no guess.
+/// Whether a study states a value, and not merely as an assumption.
 class Stated {
  public:
   Stated(const dem::ConfigValue* root, const std::vector<std::string>& assumed)
@@ -72,7 +71,7 @@ std::pair<std::string, std::string> name_and_unit(const std::string& key) {
   return {spaced(key), ""};
 }
 
-/// What holds of a grain, a wall or an experiment: stated in the study, or assumed.
+/// Settings of a grain, a wall or an experiment, stated in the study or assumed.
 class Settings {
  public:
   void add(const std::string& what, const std::string& value, bool is_stated) {
@@ -191,7 +190,7 @@ void add_experiment(const StudyRecord& record, const dem::ExperimentEntry& entry
                   measured_text(record, entry, described->second.measured));
 }
 
-/// What each film gave, or why it gave nothing.
+/// Each film's reading, or why there is none.
 void add_films(const StudyRecord& record, Chapter& chapter) {
   if (record.measurement.films.empty()) return;
   Table table{.name = "films",

@@ -11,7 +11,7 @@
 #include "calibrate/report/wording.h"
 #include "vision/scan/scan_file.h"
 
-/// Formulas: calibrate/fit/THEORY.md, dem/THEORY.md and vision/measure/repose_angle.h, which name
+/// Formulas: calibrate/fit/THEORY.md, dem/THEORY.md and vision/measure/repose_angle.h, which give
 /// their sources and the tests that prove them.
 
 namespace repose::calibrate::report {
@@ -171,7 +171,7 @@ Chapter limits_chapter(const StudyResult& result) {
 
 namespace {
 
-/// "mu_r F_n" of the definition's plain text.
+/// Replaces "mu_r F_n" in the definition's plain text by symbols.
 std::string rolling_text(std::string definition) {
   for (const auto& [plain, sign] : {std::pair("mu_r", "μᵣ"), {"F_n", "Fₙ"}}) {
     const std::string_view word = plain;
@@ -183,7 +183,7 @@ std::string rolling_text(std::string definition) {
   return definition;
 }
 
-/// Nothing in a name is a command.
+/// Escaped, so that nothing in a name is a command.
 std::string latex_text(const std::string& text) {
   static const std::map<std::string, std::string> kSpelled = {{"\\", "\\textbackslash{}"},
                                                               {"%", "\\%"},
@@ -215,7 +215,7 @@ std::string latex_text(const std::string& text) {
   return escaped;
 }
 
-/// Paragraphs and equations, as people read them and as LaTeX has them.
+/// Paragraphs and equations, as text and as LaTeX.
 struct Methods {
   std::vector<Block> blocks;
   std::string latex;
@@ -294,7 +294,7 @@ std::string seen_in(const ReportedStudy& study) {
   return std::ranges::any_of(study.pictures, is_scan) ? "silhouettes of scans" : "photographs";
 }
 
-/// @param bench  in what its heaps were seen; empty: their angles were given
+/// @param bench  medium in which the bench's heaps were seen; empty: their angles were given
 void add_angle(const std::string& bench, Methods& methods) {
   methods.add(fmt::format(
       "The angle of repose was measured in {}silhouettes of the simulated heaps{}: on each side a "
@@ -305,12 +305,12 @@ void add_angle(const std::string& bench, Methods& methods) {
                        "\\theta = \\tfrac12 (\\theta_\\mathrm{left} + \\theta_\\mathrm{right})");
 }
 
-/// Where the simulations of the fit were made, round by round.
+/// How the fit's simulations were placed, round by round.
 std::string runs_text(const JointResult& joint) {
   if (joint.is_of_table) return "The simulations are those of the table.";
   const auto all = static_cast<int>(joint.runs.size());
   const std::string made = fmt::format("{} simulations entered the fit", all);
-  // Rounds count what was planned so far; the checks' runs follow.
+  // Rounds count all runs planned so far; the checks' runs follow.
   if (joint.rounds.empty() || joint.rounds.back().jobs > all) return made + '.';
   const int spread = joint.rounds.front().jobs;
   const int placed = joint.rounds.back().jobs - spread;

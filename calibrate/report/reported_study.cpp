@@ -41,7 +41,8 @@ std::optional<double> if_finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// "heap.base_radius_mm" is a reading of the heap; in a table of runs each is its own experiment.
+/// "heap.base_radius_mm" is a reading of the heap; in a table of runs each reading is its own
+/// experiment.
 std::vector<MeasuredNumber> measured_in(const JointResult& joint, bool is_of_table) {
   std::vector<MeasuredNumber> numbers;
   for (const ResultObservable& observable : joint.observables) {
@@ -57,7 +58,7 @@ std::vector<MeasuredNumber> measured_in(const JointResult& joint, bool is_of_tab
   return numbers;
 }
 
-/// A run as RunStore saves it; none where the file is damaged.
+/// A run as RunStore saves it; std::nullopt if the file is damaged.
 std::optional<SavedRun> saved_run_in(const fs::path& file) {
   try {
     const RunResult result = run_in(base::read_whole_file(file));
@@ -76,12 +77,12 @@ std::optional<SavedRun> saved_run_in(const fs::path& file) {
     return run;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
-  } catch (const base::InputError&) {  // no file that can be read
+  } catch (const base::InputError&) {  // not a readable file
     return std::nullopt;
   }
 }
 
-/// In the order of their names: folders have none.
+/// Sorted by name, as directory order is undefined.
 std::vector<SavedRun> runs_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
@@ -96,7 +97,7 @@ std::vector<SavedRun> runs_in(const fs::path& folder) {
   return runs;
 }
 
-/// What the first run that was prepared says of the study; null: none was.
+/// The first prepared run's description of the study; null: none was prepared.
 nlohmann::ordered_json first_run_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ignored;
@@ -113,7 +114,7 @@ nlohmann::ordered_json first_run_in(const fs::path& folder) {
   return nullptr;
 }
 
-/// The rows of runs.csv, that of runs which another program makes: a run of each reading.
+/// The rows of runs.csv, made by another program: one run for each reading.
 void take_made_runs(const fs::path& folder, ReportedStudy& study) {
   const auto first = first_run_in(folder);
   if (first.is_null() || !fs::exists(folder / "runs.csv")) return;
@@ -160,11 +161,11 @@ std::optional<StudyRecord> record_in(const fs::path& folder) {
   try {
     return read_study_record(folder);
   } catch (const base::InputError&) {
-    return std::nullopt;  // a page without it is worth having
+    return std::nullopt;  // the page is useful without it
   }
 }
 
-/// Of a table's study; empty where its copy cannot be read.
+/// Of a table's study; empty if its copy cannot be read.
 dem::StudyHeading table_heading_in(const fs::path& folder) {
   try {
     return heading_of_table_study(folder / kStudyCopy);
@@ -173,7 +174,7 @@ dem::StudyHeading table_heading_in(const fs::path& folder) {
   }
 }
 
-/// What a study without a result is to be fitted to, as far as it can be read.
+/// The measurements that a study without a result will be fitted to, if they can be read.
 std::vector<MeasuredNumber> measured_of(const StudyRecord& record) {
   std::vector<MeasuredNumber> numbers;
   try {
@@ -190,14 +191,14 @@ std::vector<MeasuredNumber> measured_of(const StudyRecord& record) {
       }
     }
   } catch (const base::InputError&) {
-    // A page about the runs is worth having without it.
+    // A page about the runs is useful without it.
     numbers.clear();
   }
   return numbers;
 }
 
-/// "contact.PAIR.KEY" and its value, of each coefficient that was found, as it was checked last:
-/// what the fit learned from that check is not in the heap that was simulated for it.
+/// "contact.PAIR.KEY" and value of each fitted coefficient, as last checked: the heap simulated for
+/// that check does not yet include what the fit learned from it.
 std::map<std::string, double> values_checked(const StudyResult& result) {
   std::map<std::string, double> values;
   if (const auto* joint = std::get_if<JointResult>(&result.found)) {
@@ -212,7 +213,7 @@ std::map<std::string, double> values_checked(const StudyResult& result) {
   return values;
 }
 
-/// Whether a heap was simulated with the coefficients checked. Unknown is not otherwise.
+/// Whether a heap was simulated with the checked coefficients; true if unknown.
 bool is_heap_of(const fs::path& heap, const StudyResult& result) {
   try {
     const auto simulated = nlohmann::json::parse(dem::read_state(heap).provenance_json);
@@ -227,7 +228,7 @@ bool is_heap_of(const fs::path& heap, const StudyResult& result) {
   } catch (const nlohmann::json::exception&) {
     return true;
   } catch (const base::InputError&) {
-    return true;  // who draws it says what is wrong with it
+    return true;  // errors are reported when it is drawn
   }
   return true;
 }

@@ -16,11 +16,11 @@ struct SavedRun {
   std::string experiment;
   std::map<std::string, double> values;  ///< of the coefficients, by full name
   std::map<std::string, double> readings;
-  std::string failure;     ///< empty: there are readings
-  bool is_coarse = false;  ///< of larger grains than the study's
+  std::string failure;     ///< empty: it has readings
+  bool is_coarse = false;  ///< with larger grains than the study's
 };
 
-/// A number that the bench measured.
+/// A number measured on the bench.
 struct MeasuredNumber {
   std::string name;        ///< "heap", "heap.base_radius_mm"
   std::string experiment;  ///< "heap"
@@ -30,28 +30,29 @@ struct MeasuredNumber {
   std::optional<double> uncertainty;  ///< standard uncertainty of the mean
 };
 
-/// Runs of an unfinished study that another program makes.
+/// Runs of an unfinished study, made by another program.
 struct MadeRuns {
   int made = 0;
   int failed = 0;     ///< of these
-  int to_make = 0;    ///< that were asked for and are still to be made
-  std::string study;  ///< its file, as far as it is known
+  int to_make = 0;    ///< planned but not yet made
+  std::string study;  ///< its file, if known
 };
 
-/// All that a report is made of: a result, or the runs of a study that has none yet.
+/// Everything a report is made of: a result, or the runs of a study that has none yet.
 struct ReportedStudy {
-  std::filesystem::path folder;        ///< of repose calibrate --out; empty: there is none
-  std::optional<StudyRecord> record;   ///< none: no folder, or its copy of the study is damaged
-  std::optional<StudyIdentity> study;  ///< none: an unfinished one whose study.json is gone
-  std::optional<StudyResult> result;   ///< none: unfinished
+  std::filesystem::path folder;  ///< of repose calibrate --out; empty: none
+  std::optional<StudyRecord>
+      record;  ///< std::nullopt: no folder, or its copy of the study is damaged
+  std::optional<StudyIdentity> study;  ///< std::nullopt: unfinished, and study.json is missing
+  std::optional<StudyResult> result;   ///< std::nullopt: unfinished
   dem::StudyHeading heading;           ///< the study's own title, author, date and note
-  bool has_other_result = false;       ///< the folder has a result of other settings
-  std::vector<SavedRun> runs;          ///< of the result, else all that were saved
-  std::optional<MadeRuns> made;        ///< unfinished, by another program; none: not so
+  bool has_other_result = false;       ///< the folder has a result from other settings
+  std::vector<SavedRun> runs;          ///< of the result, otherwise all saved ones
+  std::optional<MadeRuns> made;        ///< std::nullopt: finished, or not made by another program
   std::vector<MeasuredNumber> measured;
   std::vector<PictureReading> pictures;  ///< of the bench's heaps
-  std::filesystem::path heap;            ///< state of the simulated one; empty: none
-  bool has_other_heap = false;           ///< the folder has one, of other coefficients
+  std::filesystem::path heap;            ///< state of the simulated heap; empty: none
+  bool has_other_heap = false;           ///< the folder has a heap of other coefficients
 };
 
 ReportedStudy reported(const StudyResult& result, const std::vector<PictureReading>& pictures,

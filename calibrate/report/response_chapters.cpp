@@ -24,7 +24,7 @@ void add_measured(Chart& chart, const MeasuredNumber& measured, std::array<doubl
             readable(*measured.measured + half, measured.unit));
 }
 
-/// Returns what the coefficient spans.
+/// Returns the coefficient's range in the runs.
 std::array<double, 2> add_runs(Chart& chart, const ReportedStudy& study,
                                const MeasuredNumber& measured, const std::string& parameter) {
   std::array<double, 2> span = {std::numeric_limits<double>::infinity(),
@@ -161,7 +161,7 @@ constexpr const char* kCurvesText =
     "are the simulated runs, which lie off the line because each has its own values of the other "
     "coefficients.";
 
-/// How far a coefficient moves an experiment between its bounds, in that experiment's uncertainty.
+/// Change of an experiment's reading over a coefficient's bounds, in units of its uncertainty.
 double effect_of(const JointResult& joint, const ResponseCurve& curve) {
   const auto [low, high] = std::minmax_element(curve.simulated.begin(), curve.simulated.end());
   const ResultObservable& observable = joint.observables[curve.observable];
@@ -170,7 +170,7 @@ double effect_of(const JointResult& joint, const ResponseCurve& curve) {
   return low == curve.simulated.end() ? 0 : (*high - *low) / sigma;
 }
 
-/// Whether no other experiment is moved more by the same coefficient; of equals the first.
+/// Whether this experiment responds most to the coefficient; among equals, the first.
 bool is_telling(const JointResult& joint, const ResponseCurve& curve) {
   for (const ResponseCurve& other : joint.responses) {
     if (other.parameter != curve.parameter || &other == &curve) continue;

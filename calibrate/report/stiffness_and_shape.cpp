@@ -7,20 +7,20 @@
 #include "calibrate/report/wording.h"
 #include "calibrate/result/result_text.h"
 
-// What stiffer grains, and grains of more spheres, change.
+// The effect of stiffer grains, and of grains made of more spheres.
 
 namespace repose::calibrate::report {
 namespace {
 
-/// How a check of an assumed input is told.
+/// Wording for the check of an assumed input.
 struct SensitivityWords {
-  std::string table;  ///< its name in the file of tables
+  std::string table;  ///< name of the table's file
   std::string title;
-  Column input;              ///< heads its values
+  Column input;              ///< column of the input's values
   std::string explanation;   ///< of the changes
-  std::string coefficients;  ///< their table's name,
-  std::string heading;       ///< its title,
-  std::string use;           ///< and with what grains to use them
+  std::string coefficients;  ///< name of their table
+  std::string heading;       ///< title of their table
+  std::string use;           ///< and the grains to use them with
 };
 
 Table brief_sensitivity_table(const std::vector<SensitivityCheck>& readings,
@@ -139,7 +139,7 @@ void add_stiffness(const JointResult& joint, Chapter& chapter) {
 }
 
 void add_shape(const JointResult& joint, Chapter& chapter) {
-  if (!joint.shape_check) return;  // an earlier version's
+  if (!joint.shape_check) return;  // result of an earlier version
   const ShapeCheck& shape = *joint.shape_check;
   add_sensitivity(shape.readings, shape.coefficients, shape_words(shape), chapter);
   const std::string open = shape_check_text(shape);

@@ -27,7 +27,7 @@ void add(std::vector<Chapter> more, bool is_appendix, std::vector<Chapter>& chap
   }
 }
 
-/// The answer and what speaks for it, then what it takes to check that.
+/// The answer and its evidence, then what is needed to check it.
 std::vector<Chapter> finished_chapters(const ReportedStudy& study, const StudyResult& result) {
   const HeapPictures pictures = heap_pictures(study);
   std::vector<Chapter> chapters;
@@ -81,7 +81,7 @@ Document document_of(const ReportedStudy& study) {
   return document;
 }
 
-/// Above all else: the study's own title, author, date and note.
+/// At the top: the study's own title, author, date and note.
 void put_heading(const ReportedStudy& study, Document& document) {
   constexpr std::size_t kLongest = 1000;
   const dem::StudyHeading& heading = study.heading;
@@ -96,7 +96,7 @@ void put_heading(const ReportedStudy& study, Document& document) {
   first.insert(first.begin(), blocks.begin(), blocks.end());
 }
 
-/// Names that were cut or spelled alike get a number.
+/// Duplicate names, such as shortened ones, get a number.
 void number_alike(Document& document) {
   std::set<std::string> taken;
   const auto number = [&](std::string& name) {

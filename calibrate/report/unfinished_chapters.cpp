@@ -62,7 +62,7 @@ Table counts_table(const ReportedStudy& study) {
   return table;
 }
 
-/// Of a folder that does not say what was measured: the experiments themselves.
+/// If a folder does not state what was measured: the experiments themselves.
 std::vector<MeasuredNumber> shown_numbers(const ReportedStudy& study) {
   if (!study.measured.empty()) return study.measured;
   std::vector<MeasuredNumber> numbers;

@@ -37,7 +37,7 @@ std::string shown(std::optional<double> value, std::optional<int> decimals) {
   if (const std::size_t e = text.find('e'); e != std::string::npos) {
     text = text.substr(0, e) + "·10" + raised(std::strtol(text.c_str() + e + 1, nullptr, 10));
   }
-  // The hyphen is too short for a minus.
+  // A hyphen is too short for a minus sign.
   return text.starts_with('-') ? "−" + text.substr(1) : text;
 }
 
@@ -86,7 +86,7 @@ std::string unit_shown(const std::string& unit) {
 }
 
 std::string axis_of_observable(const std::string& name, const std::string& unit) {
-  // Of another reading, "drop.low_rebound_mm", the unit is said behind.
+  // For additional readings, "drop.low_rebound_mm", the unit is given at the end.
   const std::size_t dot = name.find('.');
   const auto* known = dem::find_experiment(name.substr(0, dot));
   std::string what = shortened(spaced(name));

@@ -10,20 +10,21 @@
 /// How a report writes numbers and names.
 namespace repose::calibrate::report {
 
-/// Four significant digits, or so many decimals; "–" for none and for what is not finite.
+/// Four significant digits, or the given number of decimals; "–" for std::nullopt and non-finite
+/// values.
 std::string shown(std::optional<double> value, std::optional<int> decimals = std::nullopt);
 std::string shown(const Cell& cell, const Column& column);
 
-/// The middle of what is longer than `most` letters is left out. UTF-8 letters stay whole.
+/// Cuts out the middle of texts longer than `most` characters. UTF-8 characters stay whole.
 std::string shortened(const std::string& text, std::size_t most = 80);
 
-/// "restitution, particle–wall" for "contact.particle_wall.restitution"; other names as they are.
+/// "restitution, particle–wall" for "contact.particle_wall.restitution"; other names unchanged.
 std::string label_of(const std::string& parameter);
 
 /// "tube diameter" for "tube_diameter".
 std::string spaced(std::string name);
 
-/// "mm" for "drop"; empty for what is not known.
+/// "mm" for "drop"; empty for unknown names.
 std::string unit_of_experiment(const std::string& name);
 
 /// "°" for "deg".
@@ -41,15 +42,15 @@ std::string titled(std::string text);
 /// label_of() with a capital letter, unless it is a name of the user's own.
 std::string title_of_parameter(const std::string& name);
 
-/// A name for a file: letters, digits and _, not too long, without the "contact." of coefficients.
+/// A file name: letters, digits and _, not too long, without the "contact." of coefficients.
 std::string file_stem(const std::string& text);
 
-/// Half-width of the 95 % interval of a number with this standard uncertainty, known by so many
-/// degrees of freedom: what ± means on a page.
+/// Half-width of the 95 % interval for a standard uncertainty with `df` degrees of freedom: the
+/// meaning of ± on a page.
 double half_width_95(double standard_uncertainty,
                      double df = std::numeric_limits<double>::infinity());
 
-/// The nearest number that a bench can read in this unit.
+/// The nearest value that can physically be measured in this unit.
 double readable(double value, const std::string& unit);
 
 Cell cell(std::optional<double> value);

@@ -14,22 +14,22 @@ namespace {
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kMinChance = 1e-300;
 
-/// Of the differences of all means: the chi-square that is exceeded with their joint probability.
+/// Score of all differences of means: the chi-square that is exceeded with their joint probability.
 double score_of_means(const JointResult& joint) {
   for (const ResultObservable& observable : joint.observables) {
     if (!observable.verification || observable.verification->runs == 0) return kUnbounded;
   }
   if (!std::isfinite(joint.agreement.chance)) return kUnbounded;
   const double chance = std::clamp(joint.agreement.chance, kMinChance, 1.);
-  constexpr double kFewest = 1e-3;  // degrees of freedom: none, and next to nothing is lacking
+  constexpr double kFewest = 1e-3;  // degrees of freedom: effectively none
   const auto readings = static_cast<double>(joint.observables.size());
   return base::chi_square_exceeded(chance,
                                    std::max(joint.degrees_of_freedom.value_or(readings), kFewest));
 }
 
-/// Of two normal samples: likelihood ratio of equal variances against any (Bartlett 1937, Proc. R.
-/// Soc. Lond. A 160, 268, before his correction for few readings). A bench that scatters more has
-/// reasons of its own, of which the simulation knows nothing.
+/// For two normal samples: likelihood ratio of equal against arbitrary variances (Bartlett 1937,
+/// Proc. R. Soc. Lond. A 160, 268, before his correction for few readings). 0 if the bench scatters
+/// more, for which it has reasons that are not simulated.
 double score_of_scatter(double bench_sd, double bench_df, double simulated_sd,
                         double simulated_df) {
   if (!(bench_sd > 0) || simulated_sd <= bench_sd || bench_df < 1 || simulated_df < 1) return 0;
@@ -80,7 +80,7 @@ std::optional<std::size_t> preferred(const std::vector<Candidate>& candidates) {
   const auto best = std::ranges::min_element(candidates, {}, candidate_score);
   if (best == candidates.end()) return std::nullopt;
   for (auto other = candidates.begin(); other != candidates.end(); ++other) {
-    // Also where neither is finite.
+    // Also if neither is finite.
     if (other != best && !(candidate_score(*other) - candidate_score(*best) >= kStrongEvidence)) {
       return std::nullopt;
     }

@@ -7,31 +7,30 @@
 #include "calibrate/result/result.h"
 
 /// Which of several ways to simulate the same bench explains its readings best: rolling models,
-/// each fitted by itself.
+/// each fitted separately.
 ///
-/// Each is given a score of what speaks against it, the sum of two parts: what all means together
-/// lack, and how much more single readings scatter than the bench's. Candidates fit the same
-/// readings with as many coefficients, so that their scores can be compared as they are. It is not
-/// a likelihood, but a sum of two statistics that chi-squares are taken for. Formulae and
-/// reasons: calibrate/fit/THEORY.md, "Candidates". Proved by Candidates.* in tests/calibrate.
+/// Each gets a score of the evidence against it, the sum of two parts: the misfit of all means
+/// together, and the excess of single readings' scatter over the bench's. Candidates fit the same
+/// readings with the same number of coefficients, so their scores can be compared directly. The
+/// score is not a likelihood, but a sum of two statistics that are approximated as chi-squares.
+/// Formulae and reasons: calibrate/fit/THEORY.md, "Candidates". Proved by Candidates.* in
+/// tests/calibrate.
 namespace repose::calibrate {
 
-/// A difference of scores from which on the evidence is taken for strong, as one of deviances
-/// would be: Kass and Raftery (1995), J. Am.
-/// Stat. Assoc. 90, 773.
+/// Minimum difference of scores for strong evidence, as for a difference of deviances: Kass and
+/// Raftery (1995), J. Am. Stat. Assoc. 90, 773.
 inline constexpr double kStrongEvidence = 6;
 
-/// @param name  what it differs by from the others: "elastic_plastic"
+/// @param name  what distinguishes it from the others: "elastic_plastic"
 Candidate candidate_of(const std::string& name, const JointResult& joint);
 
-/// Infinite where an experiment gives no reading at all.
+/// Infinite if an experiment gives no reading at all.
 double candidate_score(const Candidate& candidate);
 
-/// The place of the one that the evidence for is strong, against each of the others. None: it
-/// cannot be told.
+/// Index of the candidate strongly preferred to each of the others. std::nullopt: undecided.
 std::optional<std::size_t> preferred(const std::vector<Candidate>& candidates);
 
-/// What can be said of at least two candidates, a sentence without its full stop.
+/// The comparison of at least two candidates, as a sentence without its full stop.
 std::string candidates_text(const std::vector<Candidate>& candidates);
 
 }  // namespace repose::calibrate

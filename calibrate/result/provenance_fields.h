@@ -3,7 +3,7 @@
 #include "calibrate/experiment/json_fields.h"
 #include "calibrate/result/result.h"
 
-/// How result.json names what a result was made from, and with what.
+/// Names of provenance fields in result.json: what a result was made from, and with what.
 namespace repose::calibrate {
 
 template <typename Io>

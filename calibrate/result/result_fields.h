@@ -5,7 +5,7 @@
 #include "calibrate/result/result.h"
 #include "calibrate/result/surface_fields.h"
 
-/// How result.json names the fields of a result.
+/// Names of a result's fields in result.json.
 namespace repose::calibrate {
 
 template <>

@@ -9,13 +9,13 @@ namespace {
 constexpr const char* kJoint = "joint";
 constexpr const char* kPublished = "paper";
 
-/// Names of files need not be UTF-8, JSON must be.
+/// File names need not be UTF-8, but JSON must be.
 std::string text_of(const Json& json) {
   constexpr int kIndent = 2;
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-/// What chapters and charts take for granted of lists that belong together.
+/// Checks the sizes of related lists, which chapters and charts rely on.
 void check_sizes(const JointResult& joint) {
   const auto require = [](bool is_right, const std::string& place, const char* rule) {
     if (!is_right) JsonReader::refuse(place, rule);

@@ -91,7 +91,7 @@ std::string simulated_text(const HeapDefinition& definition) {
 
 namespace {
 
-/// Curves and surfaces are there to be drawn: six digits.
+/// Curves and surfaces are only drawn: six digits are enough.
 void round_for_drawing(std::vector<double>& values) {
   for (double& value : values) value = std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
@@ -127,8 +127,8 @@ OverallAgreement agreement_of(const StudyOutcome& outcome) {
           .values = outcome.best.values};
 }
 
-/// Sets that were simulated first, but for those that failed; then those of the last fit that are
-/// not close to one that was simulated.
+/// First the simulated sets, except those that disagree with the bench; then those of the last fit
+/// that are not close to a simulated one.
 std::vector<EquivalentSet> family_of(const Problem& problem, const StudyOutcome& outcome) {
   std::vector<EquivalentSet> family;
   std::vector<Point> told;
@@ -155,7 +155,7 @@ std::vector<EquivalentSet> family_of(const Problem& problem, const StudyOutcome&
 std::vector<ObservableSurface> regressions_of(const Problem& problem,
                                               const std::vector<Run>& runs) {
   std::vector<ObservableSurface> regressions;
-  std::vector<Run> full_runs = runs;  // a polynomial knows no shift of the others
+  std::vector<Run> full_runs = runs;  // a polynomial does not model the shift of the others
   std::erase_if(full_runs, [](const Run& run) { return run.job.inputs != AssumedInputs{}; });
   for (const Observable& observable : problem.observables) {
     ObservableSurface& surface = regressions.emplace_back();
@@ -168,7 +168,7 @@ std::vector<ObservableSurface> regressions_of(const Problem& problem,
   return regressions;
 }
 
-/// Of the runs of each experiment, in the order of its name.
+/// For the runs of each experiment, in order of its name.
 NamedValues shortest_timesteps(const std::vector<Run>& runs) {
   std::map<std::string, double> shortest;
   for (const Run& run : runs) {

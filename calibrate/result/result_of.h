@@ -10,14 +10,14 @@
 
 namespace repose::calibrate {
 
-/// A polynomial of the coefficients that an observable depends on, through the runs of its
-/// experiment: quadratic, or of as many terms as there are runs for. None where even a plane has
-/// too many, or where nothing varies.
+/// A polynomial in the coefficients that an observable depends on, through the runs of its
+/// experiment: quadratic, or with fewer terms if there are too few runs. std::nullopt if even a
+/// plane has too many terms, or if nothing varies.
 std::optional<SurfaceReport> surface_of_runs(const Problem& problem, const Observable& observable,
                                              const std::vector<Run>& runs);
 
-/// What a fit alone found, from runs of whatever program: nothing was checked in simulations, and
-/// no warning is in it yet. Its equally good sets are the fit's.
+/// The result of a fit alone, from runs of any program: not checked in simulations, and without
+/// warnings so far. Its equally good sets are the fit's.
 JointResult fitted_result(const Problem& problem, const JointFit& fit,
                           const std::vector<Run>& runs);
 

@@ -14,7 +14,7 @@ namespace repose::calibrate {
 
 namespace {
 
-constexpr double kShown = .05;  // a chance below that shows a difference
+constexpr double kShown = .05;  // a p-value below this shows a difference
 
 std::vector<const Agreement*> with(const Verification& verification, AgreementVerdict verdict) {
   std::vector<const Agreement*> found;
@@ -45,7 +45,7 @@ std::string count_text(std::size_t count) {
   return count < kWords.size() ? kWords.at(count) : fmt::format("{}", count);
 }
 
-/// "three of four experiments agree (tilt, roll, heap)"; empty where none does.
+/// "three of four experiments agree (tilt, roll, heap)"; empty if none does.
 std::string agreeing_text(const Verification& verification) {
   const std::vector<const Agreement*> agreeing = with(verification, AgreementVerdict::agrees);
   const std::size_t all = verification.observables.size();
@@ -59,9 +59,9 @@ std::string agreeing_text(const Verification& verification) {
                      agreeing.size() == 1 ? "agrees" : "agree", names_of(agreeing));
 }
 
-/// Why neither agreement nor a difference is shown of one.
+/// Why neither agreement nor a difference is shown for an experiment.
 std::string open_reason(const Agreement& agreement, bool is_one) {
-  // Of an experiment without chance one run is all that there is.
+  // A deterministic experiment has only one run.
   if (!std::isfinite(agreement.difference.low)) {
     return fmt::format("too few of {} runs gave a reading", is_one ? "its" : "their");
   }
@@ -76,7 +76,8 @@ std::string open_reason(const Agreement& agreement, bool is_one) {
   return fmt::format("{0} readings scatter too much for {0} margin", is_one ? "its" : "their");
 }
 
-/// "the drop is inconclusive: its readings scatter too much for its margin", of all that are.
+/// "the drop is inconclusive: its readings scatter too much for its margin", for all inconclusive
+/// ones.
 std::string inconclusive_text(const Verification& verification) {
   std::vector<const Agreement*> left = with(verification, AgreementVerdict::cannot_tell);
   std::string text;
@@ -96,13 +97,13 @@ std::string inconclusive_text(const Verification& verification) {
   return text;
 }
 
-/// What agrees, before `rest`.
+/// The text on what agrees, followed by `rest`.
 std::string after_what_agrees(const Verification& verification, const std::string& rest) {
   const std::string agreeing = agreeing_text(verification);
   return agreeing.empty() ? rest : agreeing + "; " + rest;
 }
 
-/// Of one that agrees: a difference may be too small to matter and be shown all the same.
+/// In case of agreement: a difference may be too small to matter but still significant.
 std::string shown_difference(const Verification& verification) {
   if (!(verification.chance < kShown)) return {};
   return fmt::format(
@@ -369,7 +370,7 @@ std::string condition_text(const JointResult& joint, const ResultParameter& para
 
 namespace {
 
-/// "23.4°", "9.54 mm"; "nothing" where there is no number.
+/// "23.4°", "9.54 mm"; "nothing" if there is no number.
 std::string number_with_unit(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "nothing";
   if (unit == "deg") return fmt::format("{:.4g}°", value);
@@ -377,7 +378,7 @@ std::string number_with_unit(double value, const std::string& unit) {
                      unit == "kg/m3" ? "kg/m³" : unit);
 }
 
-/// The sentence that a reader takes away; details are in prediction_text().
+/// The main message; details are in prediction_text().
 std::string headline_of(const Prediction& one) {
   const std::string margin = number_with_unit(one.tolerance, one.unit);
   const std::string possible = one.possible ? fmt::format(", where {:.3g} to {:.3g} was possible",
@@ -398,7 +399,7 @@ std::string headline_of(const Prediction& one) {
   return text + "cannot tell, as neither agreement within " + margin + " nor a difference is shown";
 }
 
-/// Empty where nothing was held out.
+/// Empty if nothing was held out.
 std::string predictions_text(const JointResult& joint) {
   std::string text;
   for (const Prediction& one : joint.held_out) {
@@ -416,7 +417,7 @@ std::string agreement_sentence(const JointResult& joint) {
                      is_doubtful ? " Do not use these coefficients until you know why." : "");
 }
 
-/// Empty of a final result.
+/// Empty for a final result.
 std::string provisional_sentence(const JointResult& joint) {
   if (joint.provisional.empty()) return {};
   return fmt::format(
@@ -478,7 +479,7 @@ bool has_open_coefficients(const JointResult& joint) {
 }
 
 std::vector<EquivalentSet> good_sets(const JointResult& joint) {
-  // The last check is of these values, or of the nearest that were simulated.
+  // The last check used these values, or the nearest simulated ones.
   EquivalentSet best;
   best.verdict = joint.verdict;
   for (const ResultParameter& parameter : joint.parameters) best.values.push_back(parameter.value);

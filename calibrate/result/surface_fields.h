@@ -3,7 +3,7 @@
 #include "calibrate/experiment/json_fields.h"
 #include "calibrate/result/surface_summary.h"
 
-/// How files name the fields of a fitted surface.
+/// Names of a fitted surface's fields in files.
 namespace repose::calibrate {
 
 inline constexpr const auto& names_for(SurfaceModel) { return kSurfaceModelNames; }
@@ -107,7 +107,7 @@ void fields(Io& io, Held<Io, SurfaceTarget>& target) {
   io("value", target.value);
   io("uncertainty", target.uncertainty);
   io("reached", target.is_reached);
-  // A surface that does not reach it has none: an empty object.
+  // If the surface does not reach the target: an empty object.
   const std::vector<std::string> none;
   by_name(io, "ranges", target.is_reached ? io.names().factors : none, target.ranges);
   io("through_centre", target.through_centre);

@@ -11,7 +11,8 @@
 
 namespace repose::calibrate {
 
-/// A factor of a fitted surface: the levels of its runs, and what all of its terms explain.
+/// A factor of a fitted surface: the levels of its runs, and the variance explained by all of its
+/// terms.
 struct SurfaceFactor : Factor {
   std::array<double, 2> box{};  ///< lowest and highest level, natural
   Variance all_terms;
@@ -19,12 +20,12 @@ struct SurfaceFactor : Factor {
 
 struct SurfaceTerm {
   std::string term;                  ///< "1", "e", "e*mu", "e^2"
-  double value = 0;                  ///< of the coded factors
+  double value = 0;                  ///< for coded factors
   double standard_error = 0;         ///< of that
   std::optional<double> t, p;        ///< of that
   std::array<double, 2> interval{};  ///< 95 %, of that
   double partial_sum_of_squares = 0;
-  double natural = 0;  ///< of the factors in their own units
+  double natural = 0;  ///< for factors in their own units
 };
 
 /// Blocks of runs, as in FittedBlocks.
@@ -42,24 +43,25 @@ struct SurfaceVariances {
   Variance total;
 };
 
-/// A point of the surface that has the wanted value.
+/// A point at which the surface has the target value.
 struct SurfaceCrossing {
-  std::size_t factor = 0;      ///< along whose line it was found
+  std::size_t factor = 0;      ///< along whose axis it was found
   std::vector<double> levels;  ///< natural
-  /// Of the level along that line, 95 %, natural; an end is empty where the runs' range ends first.
+  /// Of the level along that axis, 95 %, natural; an end is std::nullopt if the runs' range ends
+  /// first.
   std::array<std::optional<double>, 2> interval;
 };
 
 struct SurfaceTarget {
   double value = 0;
-  double uncertainty = 0;  ///< half-width of its 95 % interval; 0: taken as exact
+  double uncertainty = 0;  ///< half-width of its 95 % interval; 0: exact
   bool is_reached = false;
   std::vector<std::vector<std::array<double, 2>>> ranges;  ///< natural intervals of each factor
   std::vector<SurfaceCrossing> through_centre;
   std::vector<SurfaceCrossing> points;
 };
 
-/// A fitted surface as files hold it. Vectors of levels are in the order of `factors`.
+/// A fitted surface as stored in files. Vectors of levels are in the order of `factors`.
 struct SurfaceSummary {
   std::string response;
   SurfaceModel model = SurfaceModel::quadratic;
@@ -75,15 +77,15 @@ struct SurfaceSummary {
   std::optional<CanonicalForm> canonical;
   BoxExtremes extremes;
   std::optional<SurfaceTarget> target;
-  std::vector<FittedRun> runs;  ///< empty in a study's result, which has all runs itself
+  std::vector<FittedRun> runs;  ///< empty in a study's result, which has the runs itself
   std::vector<SurfaceDiagnostic> warnings;
-  std::vector<LeftOut> left_out = {};   ///< of a table of runs
+  std::vector<LeftOut> left_out = {};   ///< from a table of runs
   std::vector<std::string> notes = {};  ///< on that table
 };
 
 SurfaceSummary summary_of(const SurfaceReport& report);
 
-/// As an object; numbers that do not exist are null.
+/// As an object; missing numbers are null.
 std::string to_json(const SurfaceSummary& summary);
 
 }  // namespace repose::calibrate

@@ -7,8 +7,8 @@
 
 namespace repose::calibrate {
 
-/// A program by its name, to run the cases of `repose verify`.
-/// @throws base::InputError  it has no means to, is not known, or not installed.
+/// A program, chosen by name, that runs the cases of `repose verify`.
+/// @throws base::InputError  it cannot run them, is unknown, or is not installed.
 std::unique_ptr<const dem::CasePeer> case_peer_of(const std::string& program);
 
 /// LIGGGHTS-PUBLIC 3.8. Proved by LiggghtsCases.* in tests/peers.

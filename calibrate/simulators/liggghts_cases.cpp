@@ -1,4 +1,4 @@
-// The cases of `repose verify` in LIGGGHTS: a deck for each scene, run step for step.
+// The cases of `repose verify` in LIGGGHTS: a deck for each scene, recorded at every step.
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ double mass_of(const SimulationSetup& setup, const Grain& grain) {
   return setup.contacts.material(kind.material).density_kg_m3 * kind.shape.volume_m3;
 }
 
-/// Turned about the origin.
+/// A grain rotated about the origin.
 Grain turned(const Grain& grain, const dem::Quaternion& turn) {
   Grain other = grain;
   other.position = turn * grain.position;
@@ -42,8 +42,8 @@ Grain turned(const Grain& grain, const dem::Quaternion& turn) {
   return other;
 }
 
-/// A scene with one plane at most, which is turned so that it is z = 0: LIGGGHTS has planes across
-/// the axes alone.
+/// A scene with at most one plane, rotated so that it is z = 0: LIGGGHTS only has planes normal to
+/// the axes.
 struct LevelScene {
   SimulationSetup setup;
   std::vector<Grain> grains;
@@ -60,8 +60,8 @@ struct LevelScene {
   }
 };
 
-/// How long two bodies of a Hertz contact touch in an elastic impact, Johnson (1985), eq. 11.24:
-/// T = 2.87 (m^2 / (R E*^2 v))^(1/5).
+/// Duration of an elastic Hertz impact of two bodies, Johnson (1985), eq. 11.24: T = 2.87 (m^2 / (R
+/// E*^2 v))^(1/5).
 double hertz_duration_s(const SimulationSetup& setup, const dem::Meeting& grains) {
   const Grain& one = grains[0];
   const bool is_pair = grains.size() > 1;
@@ -81,12 +81,12 @@ double hertz_duration_s(const SimulationSetup& setup, const dem::Meeting& grains
   return 2.87 * std::pow(per_radius / (per_mass * per_mass * young * young * speed), .2);
 }
 
-/// What is seen of the grains from `first` on, one meeting among others: a frame each step.
-/// @return  none: they still touch in the last frame
+/// The collision of the grains from `first` on, one meeting among several: one frame per step.
+/// @return  std::nullopt: they still touch in the last frame
 std::optional<dem::Collision> collision_in(const Frames& frames, const SimulationSetup& setup,
                                            std::size_t first, const dem::Meeting& meeting) {
-  constexpr std::size_t kFew = 4;  // as our own
-  // What stands in the file has 14 digits: that is no overlap yet.
+  constexpr std::size_t kFew = 4;  // as in our own engine
+  // Numbers in the file have 14 digits: differences this small are not overlaps.
   constexpr double kRounding = 1e-12;
   dem::CollisionSamples samples{.timestep_s = setup.timestep_s, .overlaps_m = {0}, .pushes_n = {0}};
   const bool is_pair = meeting.size() > 1;
@@ -104,7 +104,7 @@ std::optional<dem::Collision> collision_in(const Frames& frames, const Simulatio
   return std::nullopt;
 }
 
-/// All meetings in one scene, so far aside from each other that none meets another.
+/// All meetings in one scene, far enough apart not to interact.
 std::vector<Grain> side_by_side(const SimulationSetup& setup,
                                 const std::vector<dem::Meeting>& meetings, double duration_s) {
   double apart_m = 0;
@@ -135,7 +135,8 @@ class LiggghtsCases : public dem::CasePeer {
 
   std::vector<dem::Collision> collide_each(
       const SimulationSetup& setup, const std::vector<dem::Meeting>& meetings) const override {
-    constexpr double kLongest = 64;  // damped ones take longer than elastic ones, by far less
+    constexpr double kLongest =
+        64;  // damped impacts take longer than elastic ones, but by far less
     double touching_s = 0;
     for (const dem::Meeting& meeting : meetings) {
       touching_s = std::max(touching_s, hertz_duration_s(setup, meeting));
@@ -179,7 +180,7 @@ class LiggghtsCases : public dem::CasePeer {
     if (scene.setup.contacts.damping() != dem::DampingModel::per_contact) {
       throw dem::CannotRun("LIGGGHTS has no shared damping");
     }
-    // As far as anything can get, and what it takes up itself.
+    // The largest possible travel, plus the grains' own size.
     const double duration_s = steps * scene.setup.timestep_s;
     double room = .5 * scene.setup.gravity.norm() * duration_s * duration_s;
     for (const Grain& grain : scene.grains) {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kRemarks[] = {kGrainsHang, kBelowRim, kGrainsLost, kAllOffPlate};
 
-/// A number at the end of a line that may have one before it.
+/// Reads a line that ends with a number and may have another before it.
 void read_line(const std::string& line, PrintedLines& printed) {
   std::istringstream words(line);
   std::string kind, name;

@@ -40,7 +40,7 @@ int grains_of(double spheres, const ExportFacts& facts) {
   return static_cast<int>(spheres / static_cast<double>(facts.grain().spheres.size()));
 }
 
-/// A mean of single grains, and what goes with it.
+/// A mean over single grains, and its other readings.
 dem::Repeat drops_in(const fs::path& folder, const std::string& name, int grains) {
   double sum = 0, squares = 0, above = 0;
   int never_rose = 0;
@@ -104,14 +104,14 @@ dem::Repeat roll_in(const PrintedLines& printed, const ExportFacts& facts, const
   return repeat;
 }
 
-/// What holds grains that went through something.
+/// Advice if grains passed through walls or each other.
 std::string stiffer_text(const ExportFacts& facts) {
   return fmt::format("stiffer grains (young_modulus_pa is {:g}, stiffness_factor {:g})",
                      facts.study().model.grain_material.young_modulus_pa,
                      facts.study().model.stiffness_factor);
 }
 
-/// All that were asked for must be in the tube before it is lifted.
+/// All requested grains must be in the tube before it is lifted.
 int filled_grains(const PrintedLines& printed, const ExportFacts& facts, const fs::path& folder) {
   const int asked = grains_in_heap(facts);
   const int put_in = static_cast<int>(number_in(printed, "inserted_grains", folder));
@@ -129,7 +129,7 @@ int filled_grains(const PrintedLines& printed, const ExportFacts& facts, const f
   }
   const double rim_m = facts.study().protocol<dem::HeapProtocol>().tube_height_m;
   const double top_m = number_in(printed, "filled_m", folder);
-  // A grain on top that stands out is no matter: the tube passes it as it is lifted.
+  // A grain protruding at the top is harmless: the tube passes it when lifted.
   if (top_m > rim_m + 2 * facts.grain().reach_m()) {
     throw dem::NoMeasurement(fmt::format(
         "heap: {} grains fill the tube to {:.3g} mm, over its rim at {:.3g} mm, from where they "
@@ -139,7 +139,7 @@ int filled_grains(const PrintedLines& printed, const ExportFacts& facts, const f
   return filled;
 }
 
-/// Grains that are missing in the end must have fallen off the plate's edge.
+/// Grains missing at the end must have fallen off the plate's edge.
 void check_lifted(const PrintedLines& printed, const ExportFacts& facts, int filled,
                   const fs::path& folder) {
   if (printed.remark == kAllOffPlate) {
@@ -169,7 +169,7 @@ dem::Repeat heap_in(const PrintedLines& printed, const RunSpec& spec, std::uint6
     base::refuse(dump, fmt::format("has {} grains of {}", heap.grains.size(), filled),
                  "run it again.");
   }
-  // Those that are falling off the plate.
+  // Removes grains that are falling off the plate.
   std::erase_if(heap.grains, [](const dem::Grain& grain) { return grain.position.z() < 0; });
   heap.is_at_rest = number_in(printed, "moved_m", folder) <= 1e-3 * facts.grain().reach_m();
   dem::Repeat repeat = dem::heap_from(spec.model, protocol, seed, heap);
@@ -201,7 +201,7 @@ dem::Repeat fill_in(const PrintedLines& printed, const ExportFacts& facts, const
   return repeat;
 }
 
-/// Of bodies on glued grains, whose angle is the mean of their places.
+/// For bodies on glued grains: the angle is the mean over their places.
 dem::Repeat places_in(const PrintedLines& printed, const fs::path& folder) {
   dem::Repeat repeat;
   repeat.value = number_in(printed, "angle_deg", folder);

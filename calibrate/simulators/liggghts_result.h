@@ -9,10 +9,11 @@
 
 namespace repose::calibrate {
 
-/// What a run of LIGGGHTS's gives: read back from the folder in which its deck, made of these
-/// facts, ended. Proved by LostGrains.* in tests/calibrate and LiggghtsSimulator.* in tests/peers.
-/// @throws dem::NoMeasurement  what is measured did not happen, or grains were lost.
-/// @throws base::InputError  the folder has something else.
+/// The result of a LIGGGHTS run, read back from the folder in which its deck, made from these
+/// facts, has run. Proved by LostGrains.* in tests/calibrate and LiggghtsSimulator.* in
+/// tests/peers.
+/// @throws dem::NoMeasurement  the measured event did not happen, or grains were lost.
+/// @throws base::InputError  the folder's content is not as expected.
 dem::Repeat liggghts_result(const RunSpec& spec, const ExportFacts& facts, std::uint64_t seed,
                             const std::filesystem::path& folder);
 

@@ -38,7 +38,7 @@ std::string of_materials(const dem::ContactTable& contacts, const char* name, Nu
   return command + '\n';
 }
 
-/// And for each pair of them.
+/// And one with a number for each pair of materials.
 template <typename Number>
 std::string of_pairs(const dem::ContactTable& contacts, const char* name, Number number_of) {
   std::string command =

@@ -26,12 +26,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Which decks made a run, and how they are read. To be raised whenever that changes what a run
-/// gives.
+/// Version of the decks and of how they are read. Must be raised whenever either changes a run's
+/// results.
 constexpr int kDecks = 1;
 
-/// LIGGGHTS takes primes above 10000 for seeds, and none that grain.lig has. Any two that follow
-/// each other up to 2^30 are less than 512 apart, so that seeds below 2^21 have one each.
+/// LIGGGHTS needs primes above 10000 as seeds, different from those in grain.lig. Consecutive
+/// primes up to 2^30 are less than 512 apart, so that each seed below 2^21 gets its own.
 std::uint64_t prime_of(std::uint64_t seed) {
   constexpr std::uint64_t kApart = 512, kLeast = 20'000;
   constexpr int kBits = 21;
@@ -49,7 +49,7 @@ std::uint64_t prime_of(std::uint64_t seed) {
   return number;
 }
 
-/// The run as an export sees it: a study of this experiment alone.
+/// The run as data for an export: a study of this experiment alone.
 ExportFacts facts_of(const RunSpec& spec, std::uint64_t seed) {
   dem::Study study;
   study.file = "study.toml";
@@ -76,14 +76,14 @@ class LiggghtsSimulator : public ProgramSimulator {
 
   std::string identity(const RunSpec& spec) const override {
     nlohmann::ordered_json json{{"program", kLiggghts}, {"version", version_}, {"decks", kDecks}};
-    // Where sums and random numbers are taken in another order, grains go other ways.
+    // A different order of sums and random numbers leads to different trajectories.
     if (processes(spec.entry()) > 1) json["processes"] = processes(spec.entry());
     return json.dump();
   }
 
   int processes(const dem::ExperimentEntry& entry) const override {
-    // Of heaps alone. Several processes pour a tube full in other layers, which come to lie denser;
-    // of single grains there is nothing to divide.
+    // Only for heaps. Several processes fill a tube in different layers, which pack denser; with
+    // single grains there is nothing to divide.
     return &entry == dem::experiment_of<dem::HeapProtocol>() ? choice_.processes : 1;
   }
 
@@ -142,10 +142,10 @@ class LiggghtsSimulator : public ProgramSimulator {
     std::vector<std::string> words;
     if (processes(spec.entry()) > 1) {
       words = {choice_.launcher, "-n", std::to_string(processes(spec.entry()))};
-      // Runs at once would all be bound to the same first cores.
+      // Simultaneous runs would all be bound to the same first cores.
       if (choice_.launcher == "mpirun") words.insert(words.end(), {"--bind-to", "none"});
     }
-    // Line by line: what it printed last before it failed would be lost.
+    // Line-buffered: otherwise its last output before a failure would be lost.
     words.insert(words.end(),
                  {"stdbuf", "-oL", kLiggghts, "-in", dem::name_of(&spec.entry()) + ".lig", "-log",
                   "none", "-var", "seed", std::to_string(prime_of(seed))});
@@ -216,9 +216,10 @@ std::vector<std::string> LiggghtsSimulator::differences(const RunSpec& spec) con
   if (is_one_of<dem::RollProtocol>(spec.protocol) &&
       spec.model.rolling == dem::RollingModel::elastic_plastic) {
     // The rolling damper of model C, .6 sqrt(k_r I) with k_r ~ k_n ~ sqrt(overlap) (dem/THEORY.md),
-    // takes of a spin the integral of overlap^(1/4) over a landing's time. Over Hertz impacts with
-    // m x'' = -k x^(3/2) - c x^(1/4) x', to the end of the contact there, here to where the force
-    // is 0, each with the c of its restitution, it is 1.37 times ours with .31, 1.02 times with .9.
+    // reduces a spin by the integral of overlap^(1/4) over the duration of a landing. Over Hertz
+    // impacts with m x'' = -k x^(3/2) - c x^(1/4) x', up to the end of contact there, up to zero
+    // force here, each with its own c for the restitution, it is 1.37 times ours for .31, 1.02
+    // times for .9.
     all.emplace_back(
         "A grain that hops as it rolls stops earlier: the rolling damper acts as long as a landing "
         "lasts, which there is longer, as the damper pulls. A ball of 18 mm on steel stops 6 % "

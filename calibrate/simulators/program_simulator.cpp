@@ -106,7 +106,7 @@ dem::Repeat ProgramSimulator::run(const RunCall& call) const {
   run_to_end(start(call.spec, call.seed, folder.path()), folder,
              {.title = title(),
               .timeout_s = timeout_s_,
-              // How far it is nobody knows.
+              // Its progress is unknown.
               .goes_on = [&call] { return !call.goes_on || call.goes_on(0); }});
   try {
     dem::Repeat repeat = read_back(call.spec, call.seed, folder.path());

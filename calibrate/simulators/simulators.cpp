@@ -26,7 +26,7 @@ struct SimulatorEntry {
 
 const std::array kOthers{SimulatorEntry{kLiggghts, liggghts_simulator, liggghts_cases}};
 
-/// With what is sought at one end of its bounds.
+/// A run with all free coefficients at one end of their bounds.
 RunSpec spec_at_bounds(const dem::Study& study, const dem::ClumpShape& grain,
                        dem::Experiment experiment, double dem::Coefficient::*bound) {
   RunSpec spec{.protocol = study.experiments.at(experiment).protocol,

@@ -19,7 +19,7 @@
 namespace repose::calibrate {
 namespace {
 
-constexpr double kMaxGrains = 100'000;  // of an experiment
+constexpr double kMaxGrains = 100'000;  // in an experiment
 constexpr double kFewestAcross = 3;     // fewer jam in a tube
 
 template <typename Kinds>
@@ -29,7 +29,7 @@ std::vector<std::string> names_in(const Kinds& kinds) {
   return names;
 }
 
-/// The place of a word in a list of them; none, with a fault, where it is not there.
+/// Index of a word in a list; std::nullopt, with an error, if it is not there.
 std::optional<std::size_t> place_of(const char* field, const std::string& word,
                                     const std::vector<std::string>& known, base::Faults& faults) {
   const auto found = std::ranges::find(known, word);
@@ -73,7 +73,7 @@ void take_grain(const NewRequest& request, NewStudy& study, base::Faults& faults
                   .fix = "water is 1000; multiply g/cm3 by 1000."});
 }
 
-/// The usual ones, or those named, each once, in the order in which they are listed.
+/// The default ones, or those named, each once, in the order of the list.
 void take_experiments(const NewRequest& request, NewStudy& study, base::Faults& faults) {
   const std::span<const dem::ExperimentEntry> all = dem::all_experiments();
   std::vector<bool> is_chosen(all.size(), false);
@@ -93,7 +93,7 @@ bool has_part(const dem::ExperimentEntry& entry, dem::WallPart part) {
   return std::ranges::find(entry.parts, part) != entry.parts.end();
 }
 
-/// A material named for a part that no experiment has would be of no use.
+/// A material for a part that no experiment has would be useless.
 void take_parts(const NewRequest& request, NewStudy& study, base::Faults& faults) {
   for (const auto& [part, said] : request.parts) {
     if (said.empty()) continue;
@@ -120,7 +120,7 @@ void take_parts(const NewRequest& request, NewStudy& study, base::Faults& faults
   }
 }
 
-/// What is wrong with a tube that an experiment needs.
+/// Checks a tube that an experiment needs.
 void check_tube(const NewStudy& study, base::Faults& faults) {
   const double longest_mm = *std::ranges::max_element(study.sizes_mm);
   const std::string said =
@@ -172,7 +172,7 @@ void take_tube(const NewRequest& request, NewStudy& study, base::Faults& faults)
   }
 }
 
-/// Whether a file of this name can be a study, and there is a place for it.
+/// Checks that a file of this name can be a study and can be created.
 void check_name(const std::filesystem::path& file, base::Faults& faults) {
   const std::string name = file.string();
   if (file.extension() != ".toml" || file.stem().empty()) {

@@ -10,16 +10,16 @@
 #include "base/input_error.h"
 #include "calibrate/start/new_study.h"
 
-/// What a person says of a study that is yet to be measured, and the study that it makes: what
-/// `repose new` and the page ask for.
+/// What the user states about a study not measured yet, and the study made from it: for `repose
+/// new` and the studio's page.
 namespace repose::calibrate {
 
-/// As a person says it; what is empty was not said, and the usual is meant.
+/// The user's entries; empty ones take the default.
 struct NewRequest {
   std::filesystem::path study;                      ///< "soybean.toml"
-  std::string grains = {};                          ///< a kind of grain
-  std::string plate = {};                           ///< a kind of plate
-  std::map<dem::WallPart, std::string> parts = {};  ///< of what else they are than of the plate's
+  std::string grains = {};                          ///< name of a kind of grain
+  std::string plate = {};                           ///< name of a kind of plate
+  std::map<dem::WallPart, std::string> parts = {};  ///< those of another material than the plate's
   std::optional<std::array<double, 3>> grain_mm = {};
   std::optional<double> density_kg_m3 = {};
   std::optional<std::array<double, 2>> tube_mm = {};  ///< inner diameter and height
@@ -29,7 +29,7 @@ struct NewRequest {
 inline constexpr const char* kUsualGrain = "other";
 inline constexpr const char* kUsualPlate = "steel";
 
-/// Fields of a request, as faults name them, and their options of `repose new`.
+/// Fields of a request as named in error messages, and the matching options of `repose new`.
 inline constexpr std::array<base::FieldName, 9> kNewFields{{{"kind of grain", "--grains"},
                                                             {"plate", "--plate"},
                                                             {"tube", "--tube"},
@@ -40,27 +40,27 @@ inline constexpr std::array<base::FieldName, 9> kNewFields{{{"kind of grain", "-
                                                             {"size of the tube", "--tube-mm"},
                                                             {"experiments", "--experiments"}}};
 
-/// What it makes, and what is wrong with it: of a field with a fault the usual is taken.
+/// The resulting study, and the errors: fields with an error take the default.
 struct RequestedStudy {
   NewStudy study;
-  std::vector<base::Fault> faults;  ///< empty: it can be written
+  std::vector<base::Fault> faults;  ///< empty: the study can be written
 };
 
-/// Whether its files have a place is among the faults.
+/// The errors include those about the places of its files.
 RequestedStudy requested_study(const NewRequest& request);
 
-/// What is not measured yet, and stands in the study all the same, a few words each: "grains of
-/// 7.6 x 6.9 x 6.2 mm".
+/// A value that the study assumes because it is not measured yet, in a few words: "grains of 7.6 x
+/// 6.9 x 6.2 mm".
 struct Assumption {
   std::string text;
-  std::string field;  ///< that says it; empty: the study alone does
+  std::string field;  ///< request field that sets it; empty: it is set only in the study
 };
 std::vector<Assumption> assumptions_of(const NewStudy& study);
 
-/// That the grains would stick to each other, which is not simulated, as a sentence.
+/// A warning sentence if the grains would stick to each other, which is not simulated.
 std::optional<std::string> sticking_of(const NewStudy& study);
 
-/// The command line that starts the study, as a shell takes it.
+/// The command line that creates the study, quoted for a shell.
 std::string new_command(const NewRequest& request);
 
 }  // namespace repose::calibrate

@@ -14,18 +14,17 @@ namespace repose::calibrate {
 
 namespace {
 
-// Bounds without a source are wide on purpose: they take in what dry grain, seeds, nuts and beads
-// have on smooth plates, and a fit narrows them. Reviews with many single values are
-//   Boac, Casada, Maghirang, Harner (2010), Trans. ASABE 53(4), 1201-1216 (grains and oilseeds);
-//   Horabik, Molenda (2016), Biosystems Engineering 147, 206-225 (agricultural materials).
+// Bounds without a source are wide on purpose: they cover dry grain, seeds, nuts and beads on
+// smooth plates, and a fit narrows them. Reviews with many values: Boac, Casada, Maghirang, Harner
+// (2010), Trans. ASABE 53(4), 1201-1216 (grains and oilseeds); Horabik, Molenda (2016), Biosystems
+// Engineering 147, 206-225 (agricultural materials).
 constexpr ContactBounds kAnyWall{
     .restitution = {.05, .9}, .sliding_friction = {.05, .9}, .rolling_friction = {.002, .25}};
 constexpr ContactBounds kAnyGrain{
     .restitution = {.05, .9}, .sliding_friction = {.05, .9}, .rolling_friction = {0, .3}};
 
-// About the values that fitted best there: restitution .6, sliding friction .45 between soybeans
-// and .30 on steel, rolling friction .05. Their modulus, of 1 MPa in shear, was softened on
-// purpose.
+// Around the best-fitting values there: restitution .6, sliding friction .45 between soybeans and
+// .30 on steel, rolling friction .05. Their shear modulus of 1 MPa was softened on purpose.
 constexpr std::string_view kBoac =
     "Boac et al. (2010), Trans. ASABE 53(4), 1201-1216: wide about their best values, restitution "
     "0.6, sliding friction 0.45 between grains and 0.30 on steel, rolling friction 0.05";
@@ -34,7 +33,7 @@ constexpr ContactBounds kSoybeanWall{
 constexpr ContactBounds kSoybeanGrain{
     .restitution = {.3, .9}, .sliding_friction = {.1, .8}, .rolling_friction = {0, .2}};
 
-// The bounds of samples/hazelnut/study.toml, about the values published for it.
+// The bounds of samples/hazelnut/study.toml, around its published values.
 constexpr std::string_view kHazelnut =
     "the hazelnut study among the samples of repose: wide about published values on steel";
 constexpr ContactBounds kHazelnutWall{
@@ -51,7 +50,7 @@ constexpr ContactBounds kGlassWall{
 constexpr ContactBounds kGlassGrain{
     .restitution = {.8, .99}, .sliding_friction = {.03, .4}, .rolling_friction = {0, .1}};
 
-// Sizes and materials are round numbers of the usual order.
+// Sizes and materials are typical round numbers.
 constexpr std::array kGrains{
     GrainKind{"soybean",
               "soybeans",
@@ -135,7 +134,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes away with the object, unless it got its name.
+/// A folder that the destructor deletes unless it was renamed to its final name.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const fs::path& folder) : folder_(folder) {

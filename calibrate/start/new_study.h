@@ -10,8 +10,8 @@
 
 #include "dem/experiment/experiment_table.h"
 
-/// A study that is yet to be measured: its file with comments, a sheet for each experiment to fill
-/// in at the bench, and what is typical of kinds of particle and plate until it is measured.
+/// A study not measured yet: its commented file, a sheet for each experiment to fill in at the
+/// bench, and typical values for kinds of particle and plate until they are measured.
 
 namespace repose::calibrate {
 
@@ -20,7 +20,7 @@ struct CoefficientBounds {
   double max = 0;
 };
 
-/// Between which a contact's coefficients are looked for.
+/// Bounds of a contact's coefficients.
 struct ContactBounds {
   CoefficientBounds restitution;
   CoefficientBounds sliding_friction;
@@ -37,7 +37,7 @@ struct GrainKind {
   ContactBounds with_wall;
   ContactBounds with_grain;
   std::array<int, 3> colour = {};  ///< about that of the grains: red, green, blue, 0 to 255
-  std::string_view source;         ///< of the bounds; empty: they are wide, and of no one kind
+  std::string_view source;  ///< of the bounds; empty: they are wide and not specific to a kind
 };
 
 struct PlateKind {
@@ -56,16 +56,16 @@ struct NewStudy {
   PlateKind plate;
   std::map<dem::WallPart, PlateKind> parts = {};  ///< those of another material than the plate's
   std::array<double, 3> sizes_mm = {};            ///< of the grain: length, width, thickness
-  bool has_own_sizes = false;                     ///< else they are those of its kind
+  bool has_own_sizes = false;                     ///< otherwise those of its kind
   double density_kg_m3 = 0;
   bool has_own_density = false;
   double tube_diameter_mm = 0;  ///< inner
   double tube_height_mm = 0;
-  bool has_own_tube = false;  ///< for heaps and fills; else it is the usual one of heaps
+  bool has_own_tube = false;  ///< for heaps and fills; otherwise the default one for heaps
   std::vector<dem::Experiment> experiments;  ///< at least one
 };
 
-/// About how many of the grains fill the tube.
+/// Approximate number of grains that fill the tube.
 double grains_in_tube(const NewStudy& study);
 
 /// A sheet of readings.
@@ -82,21 +82,21 @@ std::string title_of(const NewStudy& study);
 
 bool needs_tube(const NewStudy& study);
 
-/// Values of the study file that are assumed, as its list names them.
+/// Names of assumed values, as in the study file's list.
 std::vector<std::string> assumed_names(const NewStudy& study);
 
-/// The study file. It names sheets in `folder`, which lies beside it.
+/// The text of the study file. Its sheets are in `folder`, which lies beside it.
 std::string study_text(const NewStudy& study, const std::string& folder);
 
 /// FOLDER/soybean for FOLDER/soybean.toml.
 std::filesystem::path sheet_folder_of(const std::filesystem::path& file);
 
-/// @throws base::InputError  the study or its folder is there already, or there is no place
-/// for them: every error.
+/// @throws base::InputError  the study or its folder exists already, or they cannot be created: all
+///   errors.
 void check_new_places(const std::filesystem::path& file);
 
 /// Writes the study and its folder of sheets, all or nothing.
-/// @throws base::InputError  as check_new_places; or one of them cannot be written.
+/// @throws base::InputError  as check_new_places(); or one of them cannot be written.
 void write_new_study(const NewStudy& study, const std::filesystem::path& file);
 
 }  // namespace repose::calibrate

@@ -47,7 +47,7 @@ std::string toml_text(std::string_view text) {
 
 namespace {
 
-/// How many spheres follow the shape to a few percent of its volume.
+/// Number of spheres that reproduce the shape to a few percent of its volume.
 int spheres_for(const std::array<double, 3>& sizes_mm) {
   constexpr double kRound = 1.02, kNearlyRound = 1.3;
   constexpr int kFew = 5, kUsual = 11;
@@ -115,7 +115,7 @@ bool is_told(const NewStudy& study, const std::string& coefficient) {
                      [&](dem::Experiment one) { return dem::depends_on(*one, coefficient); });
 }
 
-/// Bounds, and between them a value for repose simulate.
+/// Bounds, and a value between them for `repose simulate`.
 std::string coefficient_line(const NewStudy& study, const std::string& pair,
                              const std::string& name, const CoefficientBounds& bounds) {
   const std::string middle = toml_number(std::round(500 * (bounds.min + bounds.max)) / 1000);
@@ -134,7 +134,8 @@ std::string contact_section(const NewStudy& study, const std::string& pair,
          coefficient_line(study, pair, "rolling_friction", bounds.rolling_friction);
 }
 
-/// What grains do to a part of another material: no experiment tells it well, so it is assumed.
+/// Contact of grains with a part of another material: no experiment identifies it well, so it is
+/// assumed.
 std::string part_section(const NewStudy& study, dem::WallPart part) {
   const auto line = [](const char* name, const CoefficientBounds& bounds) {
     return fmt::format("{} = {}\n", name,

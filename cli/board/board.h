@@ -7,14 +7,14 @@
 
 namespace repose::cli {
 
-/// What `repose board` is asked to do, as typed.
+/// The arguments of `repose board`, as typed.
 struct BoardArguments {
   std::string out_file;
   std::string paper;
   std::string dpi;
 };
 
-/// Carries out `repose board`.
+/// Runs `repose board`.
 ExitCode run_board(const BoardArguments& arguments);
 
 Command board_command();

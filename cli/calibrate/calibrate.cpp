@@ -44,7 +44,7 @@ void StudyProgressLine::report(const calibrate::StudyProgress& progress) {
 StudyMessages::StudyMessages(const CalibratePlan& plan)
     : parameters_(plan.problem.problem.parameters), file_(plan.progress_file, parameters_) {}
 
-/// Of the last round that is complete, once.
+/// Reports the last completed round, once.
 void StudyMessages::tell_round(const calibrate::StudyProgress& progress) {
   if (progress.rounds.size() <= rounds_told_) return;
   rounds_told_ = progress.rounds.size();
@@ -86,7 +86,7 @@ std::string table_of(const CalibratePlan& plan, const calibrate::StudyResult& re
                      columns_of(stdout));
 }
 
-/// What an interrupted study left in its folder; none where nothing is known yet.
+/// The provisional result of an interrupted study; std::nullopt if there is none yet.
 std::optional<calibrate::StudyResult> provisional_in(const CalibratePlan& plan) {
   try {
     auto left = calibrate::read_result(plan.folder);
@@ -96,7 +96,7 @@ std::optional<calibrate::StudyResult> provisional_in(const CalibratePlan& plan) 
     }
     return std::nullopt;
   } catch (const base::InputError&) {
-    return std::nullopt;  // a damaged one is none
+    return std::nullopt;  // a damaged one does not count
   }
 }
 
@@ -114,7 +114,7 @@ ExitCode finish_interrupted(const CalibratePlan& plan) {
   return ExitCode::interrupted;
 }
 
-/// Writes and shows what was found, or says that it was interrupted.
+/// Writes and shows the result, or reports the interruption.
 ExitCode finish(const CalibratePlan& plan, const std::optional<calibrate::StudyResult>& result) {
   if (!result) return finish_interrupted(plan);
   const std::string json = to_json(*result);
@@ -126,14 +126,14 @@ ExitCode finish(const CalibratePlan& plan, const std::optional<calibrate::StudyR
   return ExitCode::done;
 }
 
-/// What `fit` returns; what it says is shown meanwhile.
+/// Runs `fit` and returns its result, showing its messages meanwhile.
 template <typename Fit>
 std::optional<calibrate::StudyResult> with_messages(const CalibratePlan& plan, const Fit& fit) {
   StudyMessages messages(plan);
   return fit(messages.watch(watch_for_interrupt()));
 }
 
-/// As one of the processes of an MPI job.
+/// Runs as one of the processes of an MPI job.
 ExitCode run_as_rank(const CalibrateArguments& arguments) {
   const calibrate::RankSession session;
   const CalibratePlan plan = plan_calibrate(arguments);
@@ -170,7 +170,7 @@ ExitCode run_as_rank(const CalibrateArguments& arguments) {
 
 namespace {
 
-/// Simulated here.
+/// Runs the simulations in this process.
 ExitCode run_here(const CalibrateArguments& arguments) {
   const CalibratePlan plan = plan_calibrate(arguments);
   print_lines(plan.errors);

@@ -15,8 +15,9 @@
 
 namespace repose::cli {
 
-/// How far a study is, on standard error, with the time left of all of it, at most: a fit that has
-/// settled ends earlier. On a terminal one line that is written over, else a line for each stage.
+/// Shows a study's progress on standard error, with the maximum time remaining: a fit that has
+/// settled ends earlier. On a terminal a single line that is overwritten, otherwise a line for each
+/// stage.
 class StudyProgressLine {
  public:
   void report(const calibrate::StudyProgress& progress);
@@ -26,12 +27,12 @@ class StudyProgressLine {
   ProgressLine line_{"at most {} remaining"};
 };
 
-/// What a study says on its way: how far it is, and what to know, on standard error and in a file.
+/// Messages of a running study: progress and notes, on standard error and in a file.
 class StudyMessages {
  public:
   explicit StudyMessages(const CalibratePlan& plan);
 
-  /// Lives as long as this.
+  /// The result must not outlive this object.
   calibrate::StudyWatch watch(const std::atomic<bool>& is_interrupted);
 
  private:
@@ -43,7 +44,7 @@ class StudyMessages {
   std::size_t rounds_told_ = 0;
 };
 
-/// Carries out `repose calibrate`.
+/// Runs `repose calibrate`.
 ExitCode run_calibrate(const CalibrateArguments& arguments);
 
 }  // namespace repose::cli

@@ -22,7 +22,8 @@
 namespace repose::cli {
 namespace {
 
-/// How far the runs are. On a terminal one line that is written over, else a line for each round.
+/// Progress of the runs. On a terminal one line that is overwritten, otherwise a line for each
+/// round.
 class RunsProgress {
  public:
   void report(const calibrate::EngineProgress& progress) {
@@ -42,7 +43,7 @@ class RunsProgress {
     line_->report(text, done / all);
   }
 
-  /// What is said next begins on a line of its own, and the time left is told from here on.
+  /// The next message starts on a new line, and the remaining time is estimated from here on.
   void hide() {
     line_.reset();
     before_.reset();
@@ -50,7 +51,7 @@ class RunsProgress {
 
  private:
   std::unique_ptr<ProgressLine> line_;
-  std::optional<std::size_t> before_;  ///< made when the line began
+  std::optional<std::size_t> before_;  ///< runs made when the line began
   std::size_t asked_ = 0;
 };
 

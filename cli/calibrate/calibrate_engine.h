@@ -5,10 +5,10 @@
 
 namespace repose::cli {
 
-/// Whether the study says how its runs are made: [engine]. False where it cannot be read.
+/// Whether the study states how its runs are made: [engine]. False if it cannot be read.
 bool has_engine(const CalibrateArguments& arguments);
 
-/// Carries out `repose calibrate` of a study with [engine], whose command makes the runs.
+/// Runs `repose calibrate` for a study with [engine], whose command makes the runs.
 ExitCode run_calibrate_engine(const CalibrateArguments& arguments);
 
 }  // namespace repose::cli

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kMaxJobs = 1024;
 
-/// Does `work`; what it refuses becomes errors.
+/// Runs `work`; input errors are added to `errors`.
 template <typename Work>
 bool attempt(std::vector<std::string>& errors, const Work& work) {
   try {
@@ -34,7 +34,7 @@ bool attempt(std::vector<std::string>& errors, const Work& work) {
   }
 }
 
-/// While an experiment's films are tracked.
+/// Progress while an experiment's films are tracked.
 calibrate::FilmReport shown_progress(std::size_t films) {
   const auto progress = std::make_shared<PartsProgress>(films, "tracked");
   return [progress](std::size_t film, double fraction) { progress->report(film, fraction); };
@@ -53,7 +53,7 @@ void read_jobs(const CalibrateArguments& arguments, CalibratePlan& plan) {
   plan.threads = *jobs;
 }
 
-/// Nothing of the user's may be written over.
+/// None of the user's files may be overwritten.
 void check_places(CalibratePlan& plan, bool is_dry_run) {
   const dem::Study& study = plan.record.study;
   if (plan.folder.empty()) plan.folder = calibrate::default_folder(study.file);
@@ -70,7 +70,7 @@ void check_places(CalibratePlan& plan, bool is_dry_run) {
                       read, plan.errors);
 }
 
-/// A dry run tells what the joint method would do, and gives no results.
+/// A dry run shows what the joint method would do, and gives no results.
 void check_method(const CalibrateArguments& arguments, CalibratePlan& plan) {
   if (arguments.method != "joint" && arguments.method != "paper") {
     plan.errors.push_back(fmt::format(
@@ -128,7 +128,7 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
 
 namespace {
 
-/// None: no --minutes were given, or they cannot be kept, which the errors say.
+/// std::nullopt: --minutes was not given, or cannot be met (see the errors).
 std::optional<double> minutes_of(const CalibrateArguments& arguments, CalibratePlan& plan) {
   constexpr double kMin_minutes = .1, kMax_minutes = 1e5;
   if (arguments.minutes.empty()) return std::nullopt;

@@ -11,7 +11,7 @@
 
 namespace repose::cli {
 
-/// Its options by the fields that the library finds fault with.
+/// Maps the fields named in library errors to options.
 inline constexpr std::array<base::FieldName, 6> kCalibrateFields{
     {{"budget", "--budget"},
      {"minutes", "--minutes"},
@@ -20,17 +20,17 @@ inline constexpr std::array<base::FieldName, 6> kCalibrateFields{
      {"the joint method", "--method joint"},
      {"max_runs", "--max-runs"}}};
 
-/// `repose calibrate`, as typed.
+/// The arguments of `repose calibrate`, as typed.
 struct CalibrateArguments {
   std::string study;
   std::vector<std::string> settings;
   std::string method = "joint";
   std::string budget = "quick";
-  std::string minutes = {};  ///< in place of a budget
+  std::string minutes = {};  ///< instead of a budget
   std::string fidelity = "mixed";
   std::string rolling_models;
-  std::vector<std::string> runs = {};  ///< tables of another program's; empty: simulated here
-  std::string max_runs = {};           ///< of a study with [engine]
+  std::vector<std::string> runs = {};  ///< tables from another program; empty: simulated here
+  std::string max_runs = {};           ///< for a study with [engine]
   std::string jobs;
   std::string out_folder;
   std::string json_file;
@@ -43,14 +43,14 @@ struct CalibratePlan : calibrate::PreparedStudy {
   std::string json_file;
   std::string progress_file;
   std::vector<std::string> errors;  ///< empty: it can be carried out
-  std::vector<std::string> notes;   ///< for the user to know
+  std::vector<std::string> notes;   ///< for the user
 };
 
-/// The study and what its bench gave, for a command that simulates in the study's folder: all of a
-/// plan but its problem.
+/// Reads the study and its bench measurements for a command that simulates in the study's folder: a
+/// complete plan except for its problem.
 CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows no_rows);
 
-/// @throws dem::Interrupted  while it was timed what --minutes allow for
+/// @throws dem::Interrupted  while measuring how much --minutes allows
 CalibratePlan plan_calibrate(const CalibrateArguments& arguments);
 
 Command calibrate_command();

@@ -21,7 +21,7 @@ std::string short_name(const std::string& coefficient) {
 
 namespace {
 
-/// "0.310", or with as many digits as a quantity of that size needs.
+/// "0.310", or as many digits as a quantity of that size needs.
 std::string four_digits(double value) {
   if (!std::isfinite(value)) return kMissing;
   const double size = std::abs(value);
@@ -72,7 +72,7 @@ Table observables_table(const calibrate::JointResult& joint) {
   return table;
 }
 
-/// What of the differences is not by chance.
+/// The systematic part of differences.
 void add_systematic(const calibrate::JointResult& joint, Page& page) {
   for (const calibrate::ResultObservable& observable : joint.observables) {
     const std::string shared = systematic_text(observable);
@@ -87,7 +87,7 @@ void add_systematic(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
-/// What the coefficients would be if readings scattered otherwise than was assumed.
+/// The coefficients if the readings' scatter differed from what was assumed.
 void add_assumed_scatter(const calibrate::JointResult& joint, Page& page) {
   if (joint.assumed_scatters.readings.empty()) return;
   Table table({{.heading = "coefficient"},
@@ -117,7 +117,7 @@ void add_assumed_scatter(const calibrate::JointResult& joint, Page& page) {
                   readings));
 }
 
-/// What surfaces through the runs give, where nothing was simulated again.
+/// Values from surfaces through the runs, if nothing was simulated again.
 void add_fitted(const calibrate::JointResult& joint, Page& page) {
   Table table({{.heading = "observable"},
                number_column("measured"),
@@ -138,7 +138,7 @@ void add_fitted(const calibrate::JointResult& joint, Page& page) {
   page.add("(± is the standard uncertainty of the mean)");
 }
 
-/// Of each experiment that does not agree what would decide it.
+/// For each experiment that does not agree, what would decide it.
 void add_agreement(const calibrate::JointResult& joint, Page& page) {
   if (!joint.verdict) {
     add_fitted(joint, page);
@@ -165,7 +165,7 @@ void add_agreement(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
-/// What was held out, as the fit predicts it.
+/// Held-out readings, as predicted by the fit.
 void add_predictions(const calibrate::JointResult& joint, Page& page) {
   if (joint.held_out.empty()) return;
   Table table({{.heading = "held out"},
@@ -201,15 +201,15 @@ void add_predictions(const calibrate::JointResult& joint, Page& page) {
                         "of coefficients that the fit leaves plausible)"));
 }
 
-/// How a check of an assumed input is told.
+/// Wording for the check of an assumed input.
 struct SensitivityWords {
-  std::string readings;      ///< heads the readings: "stiffer grains"
-  std::string input;         ///< heads the value simulated: "factor"
-  std::string explanation;   ///< what a change is
-  std::string coefficients;  ///< heads the coefficients
+  std::string readings;      ///< heading of the readings: "stiffer grains"
+  std::string input;         ///< heading of the simulated value: "factor"
+  std::string explanation;   ///< meaning of a change
+  std::string coefficients;  ///< heading of the coefficients
 };
 
-/// What another value of an assumed input changes.
+/// The effect of another value of an assumed input.
 void add_sensitivity(const std::vector<calibrate::SensitivityCheck>& readings,
                      const std::vector<calibrate::MovedCoefficient>& coefficients,
                      const SensitivityWords& words, Page& page) {
@@ -254,7 +254,7 @@ void add_sensitivity(const std::vector<calibrate::SensitivityCheck>& readings,
       "uncertainty)");
 }
 
-/// What softening leaves open.
+/// The remaining uncertainty from softening.
 void add_stiffness(const calibrate::JointResult& joint, Page& page) {
   add_sensitivity(joint.stiffness_checks, joint.stiffer_coefficients,
                   {.readings = "stiffer grains",
@@ -264,9 +264,9 @@ void add_stiffness(const calibrate::JointResult& joint, Page& page) {
                   page);
 }
 
-/// What the number of spheres leaves open, or why that is not known.
+/// The remaining uncertainty from the number of spheres, or why it is unknown.
 void add_shape(const calibrate::JointResult& joint, Page& page) {
-  if (!joint.shape_check) return;  // an earlier version's
+  if (!joint.shape_check) return;  // result of an earlier version
   const calibrate::ShapeCheck& shape = *joint.shape_check;
   add_sensitivity(
       shape.readings, shape.coefficients,
@@ -281,7 +281,8 @@ void add_shape(const calibrate::JointResult& joint, Page& page) {
   page.add(open);
 }
 
-/// What inputs held fixed move: those that move a coefficient by a quarter of its interval's half.
+/// The effect of inputs held fixed: those that shift a coefficient by a quarter of its
+/// half-interval.
 void add_inputs(const calibrate::JointResult& joint, Page& page) {
   if (joint.with_assumed.empty()) return;
   constexpr double kMatters = .25;
@@ -320,7 +321,7 @@ void add_inputs(const calibrate::JointResult& joint, Page& page) {
   page.add(fmt::format("With all that was assumed (95 %): {}.", with));
 }
 
-/// "μs wall" for "contact.particle_wall.sliding_friction", "e grain" between grains.
+/// "μs wall" for "contact.particle_wall.sliding_friction"; "e grain" between grains.
 std::string symbol_of(const std::string& coefficient) {
   const std::string name = short_name(coefficient);
   const std::size_t dot = name.find('.');
@@ -336,7 +337,7 @@ std::string symbol_of(const std::string& coefficient) {
   return name;
 }
 
-/// Whole sets, where coefficients have no value of their own.
+/// Whole sets, if coefficients are not determined individually.
 void add_sets(const calibrate::JointResult& joint, Page& page) {
   const std::vector<calibrate::EquivalentSet> sets = good_sets(joint);
   if (sets.size() < 2 || !has_open_coefficients(joint)) return;
@@ -373,7 +374,7 @@ void add_advice(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
-/// Verdicts that rest on a bound.
+/// Verdicts that depend on a bound.
 void add_bounds(const calibrate::JointResult& joint, Page& page) {
   bool is_first = true;
   for (const calibrate::ResultParameter& parameter : joint.parameters) {
@@ -396,7 +397,7 @@ void add_additions(const calibrate::JointResult& joint, Page& page) {
   }
 }
 
-/// By what heaps were measured.
+/// The definition by which heaps were measured.
 void add_heap_definition(const calibrate::Provenance& provenance, Page& page) {
   if (!provenance.model || !provenance.model->heap_definition) return;
   const calibrate::HeapDefinition& definition = *provenance.model->heap_definition;
@@ -410,7 +411,7 @@ void add_heap_definition(const calibrate::Provenance& provenance, Page& page) {
           : ""));
 }
 
-/// Another program than ours defines some things otherwise.
+/// Differences if another program than ours made the runs.
 void add_simulator(const calibrate::Provenance& provenance, Page& page) {
   if (!provenance.model || !provenance.model->simulator) return;
   const calibrate::SimulatorFacts& simulator = *provenance.model->simulator;
@@ -419,7 +420,7 @@ void add_simulator(const calibrate::Provenance& provenance, Page& page) {
                        fmt::join(simulator.differences, " ")));
 }
 
-/// What the study itself marks as not measured.
+/// Values marked as not measured in the study.
 void add_assumed(const calibrate::Provenance& provenance, Page& page) {
   if (provenance.assumed.empty()) return;
   page.add_gap();
@@ -427,7 +428,7 @@ void add_assumed(const calibrate::Provenance& provenance, Page& page) {
       fmt::format("Assumed in the study, not measured: {}.", fmt::join(provenance.assumed, ", ")));
 }
 
-/// Counts as `calibrate` found them in the table.
+/// The counts that `calibrate` found in the table.
 std::string table_text(const calibrate::TableFacts& table) {
   return fmt::format(
       "These parameters are valid for the program, particles and settings that the {} runs of {} "

@@ -6,14 +6,14 @@
 
 namespace repose::cli {
 
-/// Sentences in longer lines are hard to read.
+/// Sentences are hard to read in longer lines.
 inline constexpr int kWidestText = 100;
 
-/// As tables call a coefficient: "particle_wall.restitution".
+/// A coefficient's name in tables: "particle_wall.restitution".
 std::string short_name(const std::string& coefficient);
 
-/// For people: coefficients with intervals and verdicts, what was measured and simulated, sets that
-/// fit as well, what would determine the rest, and what the values belong to.
+/// For people: coefficients with intervals and verdicts, measured and simulated values, equally
+/// good sets, what would determine the rest, and the conditions under which the values hold.
 std::string joint_table(const calibrate::JointResult& joint,
                         const calibrate::Provenance& provenance, int columns);
 

@@ -56,7 +56,7 @@ Table runs_table(const calibrate::BudgetTimes& times) {
   return table;
 }
 
-/// By what they are for, in the order in which they are made.
+/// By purpose, in the order in which they are made.
 Table phases_table(const calibrate::BudgetTimes& times) {
   constexpr double kPercent = 100;
   Table table(headings_of(times));

@@ -5,7 +5,7 @@
 
 namespace repose::cli {
 
-/// `repose calibrate --dry-run`: times a run of each experiment and tells what the budgets would
+/// `repose calibrate --dry-run`: times a run of each experiment and shows what each budget would
 /// do. Writes nothing.
 ExitCode run_dry(const CalibratePlan& plan);
 

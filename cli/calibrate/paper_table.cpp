@@ -16,7 +16,7 @@ namespace {
 using calibrate::PublishedHeap;
 using calibrate::PublishedResult;
 
-/// What the study file gives as a coefficient's value: that of an earlier calibration.
+/// A coefficient's value in the study file, from an earlier calibration.
 std::optional<double> earlier(const dem::Study& study, const std::string& name) {
   for (const calibrate::NamedCoefficient& named : calibrate::coefficients_of(study)) {
     if (named.name == name) return named.coefficient.value;

@@ -7,7 +7,7 @@
 
 namespace repose::cli {
 
-/// What `repose calibrate --method paper` tells. `study` may have values of an earlier calibration.
+/// Output of `repose calibrate --method paper`. `study` may have values of an earlier calibration.
 std::string paper_table(const calibrate::PublishedResult& published, const dem::Study& study,
                         int columns);
 

@@ -25,8 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kKey = "contact.rolling_model";
 
-/// Those with a coefficient: the others have one less to fit, and could not be weighed against
-/// them.
+/// Those with a coefficient: the others have one less to fit and could not be compared with them.
 std::vector<std::string> known_models() {
   std::vector<std::string> names;
   for (const auto& [model, name] : dem::kRollingNames) {
@@ -50,7 +49,7 @@ std::vector<std::string> models_in(const CalibrateArguments& arguments,
   return models;
 }
 
-/// What makes no sense together with several models, all at once.
+/// Reports all options that make no sense with several models.
 void check(const CalibrateArguments& arguments, std::vector<std::string>& errors) {
   if (arguments.method != "joint") {
     errors.push_back(fmt::format(
@@ -118,7 +117,7 @@ std::string page_of(const std::vector<calibrate::Candidate>& candidates, const f
   return page.text();
 }
 
-/// Each result says what it was weighed against.
+/// Saves in each result what it was compared with.
 void keep(const std::vector<fs::path>& folders, std::vector<calibrate::StudyResult>& results,
           const std::vector<calibrate::Candidate>& candidates) {
   Outputs outputs;

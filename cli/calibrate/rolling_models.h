@@ -4,9 +4,9 @@
 
 namespace repose::cli {
 
-/// `repose calibrate --rolling-models A,B`: the study once with each, in folders of their own
-/// inside the output folder; then which of them explains the bench readings best, which is kept in
-/// the result of each.
+/// `repose calibrate --rolling-models A,B`: calibrates the study once with each, in subfolders of
+/// the output folder; then determines which explains the bench readings best, and saves this in the
+/// result of each.
 ExitCode run_rolling_models(const CalibrateArguments& arguments);
 
 }  // namespace repose::cli

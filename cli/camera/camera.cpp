@@ -53,7 +53,7 @@ CameraPlan plan_camera(const CameraArguments& arguments) {
 
 struct Looks {
   std::vector<vision::BoardPicture> pictures;
-  std::vector<std::string> errors;  ///< one a picture; empty where it was read
+  std::vector<std::string> errors;  ///< one per picture; empty: it was read
 };
 
 vision::BoardPicture look_at(const std::filesystem::path& file) {

@@ -8,7 +8,7 @@
 
 namespace repose::cli {
 
-/// What `repose camera` is asked to do, as typed.
+/// The arguments of `repose camera`, as typed.
 struct CameraArguments {
   std::vector<std::string> pictures;  ///< files and folders
   std::string out_file;
@@ -17,7 +17,7 @@ struct CameraArguments {
   std::string threads;
 };
 
-/// Carries out `repose camera`.
+/// Runs `repose camera`.
 ExitCode run_camera(const CameraArguments& arguments);
 
 Command camera_command();

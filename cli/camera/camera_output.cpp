@@ -64,7 +64,7 @@ std::string camera_json(const CameraResult& result) {
     json["warnings"].push_back({{"code", warning.code}, {"message", warning.message}});
   }
   if (!exists) json["reason"] = fit.reason;
-  // File names need not be UTF-8, JSON must be.
+  // File names need not be UTF-8, but JSON must be.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -14,13 +14,13 @@ struct CameraResult {
   double square_mm = 0;
 };
 
-/// What it was fitted to, for the camera file: "10 pictures, 0.21 px from the fit".
+/// Origin of the lens for the camera file: "10 pictures, 0.21 px from the fit".
 std::string origin_of(const CameraResult& result);
 
-/// A row for each picture and for each number of the lens; why it was refused.
+/// A row for each picture and for each number of the lens; and why it was refused.
 std::string camera_table(const CameraResult& result, int terminal_columns);
 
-/// One object. A number that does not exist is null.
+/// One object. Missing numbers are null.
 std::string camera_json(const CameraResult& result);
 
 }  // namespace repose::cli

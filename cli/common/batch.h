@@ -12,9 +12,10 @@ namespace repose::cli {
 /// Thrown by a progress report to stop the work.
 struct Interrupted {};
 
-/// The results of `count` pieces of work, such as pictures or films, on some threads, with their
-/// progress. Once interrupted, those that are missing are as they were made.
-/// @param one  (number, report): the result of one; report(fraction) tells how far it is
+/// Processes `count` items, such as pictures or films, on `threads` threads, with progress. After
+/// an interruption, missing results are default-constructed.
+/// @param one  called as (number, report), returns the result of one item; report(fraction) reports
+///   its progress
 template <typename Result, typename One>
 std::vector<Result> batch_of(std::size_t count, int threads, const char* done_word,
                              const std::atomic<bool>& is_interrupted, const One& one) {

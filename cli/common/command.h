@@ -10,26 +10,27 @@
 
 namespace repose::cli {
 
-/// An option of a command: how it is typed, what it is for, and where its text goes.
+/// An option of a command: how it is typed, its purpose, and where its text is stored.
 struct CommandOption {
-  std::string name;        ///< "--json"; without dashes: a word known by its place
+  std::string name;        ///< "--json"; without dashes: a positional argument
   std::string value_name;  ///< "FILE|-"; empty for a switch
   std::string help;
-  /// A list takes the option several times, or all words that are left.
+  /// A list allows the option several times, or takes all remaining words.
   std::variant<std::string*, std::vector<std::string>*, bool*> target;
   bool is_required = false;
-  int word_count = 0;                   ///< of a list of words, when there must be just so many
-  std::vector<std::string> words = {};  ///< that it may be, where its value_name does not say
+  int word_count = 0;                   ///< exact number of words for a list; 0: any number
+  std::vector<std::string> words = {};  ///< allowed values, if its value_name does not list them
 };
 
-/// A subcommand: what its help says, its options, and what carries it out once they are parsed.
+/// A subcommand: its help, its options, and the function that runs it after parsing.
 struct Command {
   std::string name;
   std::string summary;
   std::vector<CommandOption> options;
   std::string notes = {};    ///< below the options in its help
-  std::string missing = {};  ///< said when something required is not given
-  /// Its options by the fields that libraries find fault with; lives as long as the program.
+  std::string missing = {};  ///< shown if a required option is missing
+  /// Maps the fields named in library errors to this command's options; must outlive the program's
+  /// run.
   base::FieldNames fields = {};
   std::function<ExitCode()> run = {};
 };

@@ -15,15 +15,15 @@
 
 #include <tbb/info.h>
 
-/// Options as typed values: one reader for each type. Each gives nothing for an empty text, which
-/// is an option that was not given, and for a wrong one, which adds an error.
+/// Options as typed values: one reader for each type. Each returns nothing for an empty text
+/// (option not given), and for an invalid one, which adds an error.
 
 namespace repose::cli {
 
-/// Cores that this process may use: on a cluster fewer than the machine has.
+/// Cores available to this process; on a cluster fewer than the machine has.
 inline int available_cores() { return tbb::info::default_concurrency(); }
 
-/// The whole text as a finite number, with a point, in any locale.
+/// The whole text as a finite number, with a decimal point in any locale.
 template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -34,7 +34,7 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-/// "A,B,C" with as many numbers as asked for.
+/// "A,B,C" with exactly `count` numbers.
 template <typename Number, std::size_t count>
 std::optional<std::array<Number, count>> numbers_in(std::string_view text) {
   std::array<Number, count> numbers{};
@@ -51,7 +51,7 @@ std::optional<std::array<Number, count>> numbers_in(std::string_view text) {
 
 inline constexpr int kMaxThreads = 1024;
 
-/// What was typed after an option, and where to say what is wrong with it.
+/// What was typed after an option, and where to add errors about it.
 struct OptionText {
   const char* option = "";
   const std::string& text;
@@ -68,22 +68,22 @@ std::optional<double> read_number(const OptionText& typed, std::string_view what
 std::optional<double> read_positive(const OptionText& typed, std::string_view what,
                                     std::string_view fix);
 
-/// `min` and `max` may be the value.
+/// From `min` to `max`, inclusive.
 std::optional<double> read_number_within(const OptionText& typed, double min, double max,
                                          std::string_view fix);
 std::optional<int> read_whole_number(const OptionText& typed, int min, int max,
                                      std::string_view fix);
 
-/// A seed: from 0 on.
+/// A seed, 0 or above.
 std::optional<std::uint64_t> read_seed(const OptionText& typed);
 
-/// How much is done at a time; all of the machine's cores where nothing is typed.
+/// Number of threads; all available cores if nothing was typed.
 int read_threads(const OptionText& typed);
 
-/// An angle that is typed in degrees [rad].
+/// An angle typed in degrees [rad].
 std::optional<double> read_angle(const OptionText& typed, std::string_view fix);
 
-/// "A,B,...": as many numbers as there are, at least one.
+/// "A,B,...": any number of numbers, at least one.
 std::optional<std::vector<double>> numbers_in(std::string_view text);
 
 /// "FROM,TO".
@@ -97,18 +97,18 @@ std::optional<std::array<double, 2>> read_point(const OptionText& typed);
 std::optional<std::array<int, 4>> read_box(const OptionText& typed);
 std::optional<std::array<int, 2>> read_size(const OptionText& typed);
 
-/// Which of `words` was typed.
+/// Index of the typed word in `words`.
 std::optional<std::size_t> read_word(const OptionText& typed,
                                      const std::vector<std::string>& words);
 
-/// "A,B,...": places in `words` of those that were typed, each once, in the order of `words`.
+/// "A,B,...": indices in `words` of the typed ones, each once, in the order of `words`.
 std::vector<std::size_t> read_words(const OptionText& typed, const std::vector<std::string>& words);
 
-/// Which of `endings` (".png") the name of a file has, in small or capital letters.
+/// Index in `endings` (".png") of a file name's ending, case-insensitive.
 std::optional<std::size_t> read_ending(const OptionText& typed,
                                        const std::vector<std::string>& endings);
 
-/// The value of the word that was typed, or of a file's ending.
+/// Maps a typed word, or a file's ending, to its value.
 template <typename Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 

@@ -40,9 +40,9 @@ void print(std::string_view text) {
 void prepare_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // The library that writes films prints what cli/render says in words.
+  // Silences the library that writes films: cli/render reports its errors.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // NOLINT(concurrency-mt-unsafe): before threads
-  // What is opened takes the lowest free number. Nothing can be written to these three.
+  // open() takes the lowest free descriptor: closed standard streams become unwritable ones.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", O_RDONLY);
   }
@@ -106,7 +106,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What else such a name may be of.
+/// Extensions of other kinds of files.
 constexpr std::array<std::string_view, 14> kOtherEndings{".json", ".csv", ".html", ".htm", ".toml",
                                                          ".pdf",  ".stl", ".glb",  ".obj", ".ply",
                                                          ".vtp",  ".vtk", ".xlsx", ".ods"};
@@ -118,7 +118,7 @@ std::string small_ending(const fs::path& file) {
   return ending;
 }
 
-/// Of the name alone, so that no photograph is measured later that is a page.
+/// Checks the name only, so that a page is never measured later as a photograph.
 std::string error_of_name(const OutputPlace& place) {
   const std::string ending = small_ending(place.file);
   if (place.ending.empty() || ending == place.ending ||
@@ -133,7 +133,7 @@ std::string error_of_name(const OutputPlace& place) {
                      ending, place.ending);
 }
 
-/// A JSON file has the names of a CSV's columns too: the header alone counts.
+/// A JSON file also contains the names of a CSV's columns, so only the header counts.
 bool is_of_its_kind(std::string_view text, const OutputPlace& place) {
   if (place.ending != ".csv") return text.find(place.mark) != std::string_view::npos;
   const std::string_view header = text.substr(0, text.find('\n') + 1);
@@ -141,7 +141,7 @@ bool is_of_its_kind(std::string_view text, const OutputPlace& place) {
          header.find(place.mark) != std::string_view::npos;
 }
 
-/// Of a file that is there already.
+/// The error for a file that already exists.
 std::string error_of_earlier(const OutputPlace& place) {
   std::error_code ignored;
   if (!fs::is_regular_file(place.file, ignored) || fs::file_size(place.file, ignored) == 0) {
@@ -159,7 +159,7 @@ std::string error_of_earlier(const OutputPlace& place) {
   try {
     return is_of_its_kind(base::read_whole_file(place.file), place) ? "" : other;
   } catch (const base::InputError&) {
-    return other;  // what cannot be read is not ours either
+    return other;  // an unreadable file is not ours either
   }
 }
 

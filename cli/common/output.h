@@ -20,24 +20,25 @@ enum class ExitCode {
 /// The name that stands for standard output.
 inline constexpr std::string_view kStandardOutput = "-";
 
-/// To be called before anything is opened or written: an output that fails is an error to be told
-/// and never a signal, and a stream that was closed stays closed instead of becoming the next file.
+/// Must be called before anything is opened or written: a failing output is then reported as an
+/// error and never raises a signal, and a closed stream stays closed instead of becoming the next
+/// opened file.
 void prepare_streams();
 
-/// What a command gives: files that were asked for, and what people read on standard output.
+/// A command's outputs: requested files, and text for people on standard output.
 class Outputs {
  public:
-  /// `file` may be "-", or empty: not asked for.
+  /// `file` may be "-", or empty: not requested.
   void add(const std::string& file, std::string text);
 
-  /// For people, where no file takes standard output.
+  /// Text for people, shown if no file goes to standard output.
   void show(std::string text);
 
-  /// All files but standard output, each whole or not at all. One that cannot be written does not
-  /// keep the others from it.
+  /// Writes all files except standard output, each atomically. An error in one does not prevent the
+  /// others.
   void write_files();
 
-  /// The files, if they were not yet written, then standard output.
+  /// Writes the files, unless already written, then standard output.
   /// @throws base::InputError  what could not be written, a line each.
   void write();
 
@@ -53,47 +54,47 @@ class Outputs {
   std::vector<base::Fault> errors_;
 };
 
-/// Adds a line for each fault, with the options of the fields that `names` has.
+/// Adds a line for each error, with the options of the fields in `names`.
 void add_faults(const base::InputError& error, std::vector<std::string>& lines,
                 base::FieldNames names = {});
 
-/// To standard error, as it is. Where that is closed or full, nothing happens: what a command
-/// measured does not depend on who listens.
+/// Writes to standard error unchanged. Failures (closed or full) are ignored: a command's results
+/// must not depend on who listens.
 void print_error_text(std::string_view text) noexcept;
 
-/// Errors and notes: to standard error, each with the program's name before it.
+/// Prints errors and notes to standard error, each prefixed with the program's name.
 void print_line(std::string_view line) noexcept;
 void print_lines(const std::vector<std::string>& lines) noexcept;
 
-/// A file, or standard output, that an option names; empty when it is not given.
+/// A file, or standard output, named by an option; empty: not given.
 struct OutputPlace {
   const char* option = "";
   std::string file;
-  /// Of the names of such files: ".json". Empty: the command checks it.
+  /// Extension of such files: ".json". Empty: checked by the command.
   std::string_view ending = {};
-  /// Text that every such file of repose has: another one of that name is somebody's. Empty: it is
-  /// in a folder that is checked as a whole.
+  /// Text contained in every such file of repose; a file of that name without it is the user's.
+  /// Empty: the file is in a folder that is checked as a whole.
   std::string_view mark = {};
 };
 
-/// In every 3-D model that is written, by the library that writes them: [Aa]ssimp.
+/// Contained in every 3-D model written here, from the library that writes them: [Aa]ssimp.
 inline constexpr std::string_view kMeshMark = "ssimp";
 
-/// @param key  in quotation marks, which each such JSON has
+/// @param key  in quotation marks, contained in each such JSON
 OutputPlace json_place(const std::string& file, std::string_view key,
                        const char* option = "--json");
 OutputPlace csv_place(const char* option, const std::string& file, std::string_view column);
 OutputPlace page_place(const char* option, const std::string& file);
 
-/// Adds an error for two outputs in one place; an input, a file of another kind or one that repose
-/// did not make, which would be overwritten; and a place that cannot be written. Proved by
+/// Adds an error for two outputs to the same file; an output that would overwrite an input, a file
+/// of another kind or one that repose did not make; and a file that cannot be written. Proved by
 /// OutputsOf.* in tests/cli/outputs_test.cpp.
 void check_output_places(const std::vector<OutputPlace>& places,
                          const std::vector<std::filesystem::path>& inputs,
                          std::vector<std::string>& errors);
 
-/// Makes a folder that an option names, for files to be written into; adds an error when it cannot.
-/// @returns whether it is there and can be written to.
+/// Creates an output folder named by an option; adds an error on failure.
+/// @returns whether it exists and is writable.
 bool make_output_folder(const char* option, const std::filesystem::path& folder,
                         std::vector<std::string>& errors);
 

@@ -11,11 +11,11 @@
 #include "vision/measure/repose_angle.h"
 #include "vision/measure/scale_bar.h"
 
-/// Options of all commands that measure pictures.
+/// Options shared by all commands that measure pictures.
 
 namespace repose::cli {
 
-/// What gives millimetres, and the lens, as typed.
+/// Sources of millimetres, and the lens, as typed.
 struct ScaleArguments {
   std::string scale;
   bool finds_board = false;
@@ -28,22 +28,22 @@ struct ScaleArguments {
 std::optional<vision::ScaleBar> read_scale_bar(const OptionText& typed, std::string_view fix);
 
 /// @param scale_fix  an example of --scale
-/// @param plane  that a board stands in, such as "the heap's middle"
+/// @param plane  in which a board stands, such as "the heap's middle"
 vision::ScaleOptions read_scale(const ScaleArguments& arguments, std::string_view scale_fix,
                                 std::string_view plane, std::vector<std::string>& errors);
 
-/// As typed; an empty text leaves the default.
+/// Options as typed; empty: the default.
 struct TypedMeasuring {
   const std::string& method;
   const std::string& window;
   const std::string& definition;
   const std::string& pitch_deg;
   const std::vector<std::string>& exclude;
-  base::FieldNames fields;  ///< for what the measurement advises; lives as long as the program
+  base::FieldNames fields;  ///< for the measurement's advice; must outlive the program's run
   const char* exclude_option = "--exclude";
 };
 
-/// Adds what is wrong to `errors`, also what the measurement itself refuses.
+/// Adds all errors to `errors`, including options refused by the measurement itself.
 vision::MeasureOptions read_measuring(const TypedMeasuring& typed,
                                       std::vector<std::string>& errors);
 

@@ -64,7 +64,7 @@ calibrate::PositionsOptions read_position_options(const PositionArguments& argum
 
 namespace {
 
-/// Those of a folder, by name, without subfolders; none when it cannot be read.
+/// Those of a folder, by name, without subfolders; empty if it cannot be read.
 std::vector<std::filesystem::path> positions_files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> found;
   std::error_code error;

@@ -9,11 +9,11 @@
 #include "calibrate/particles/positions_angle.h"
 #include "cli/common/command.h"
 
-/// Options of all commands that take files with the places of particles.
+/// Options shared by all commands that take files of particle positions.
 
 namespace repose::cli {
 
-/// As typed.
+/// The options as typed.
 struct PositionArguments {
   std::string unit;
   std::string up;
@@ -21,13 +21,13 @@ struct PositionArguments {
   std::string step;
   std::string particle_mm;
 
-  /// The first that is given; empty: none is.
+  /// Name of the first option given; empty: none.
   const char* given() const;
-  /// The same of those that say something of particles alone.
+  /// The same among options that apply only to particles.
   const char* of_particles() const;
 };
 
-/// By the fields that reading them finds fault with.
+/// Maps the fields named in errors when reading such files to options.
 inline constexpr std::array<base::FieldName, 5> kPositionFields{
     {{"particles' unit", "--unit"},
      {"direction that is up", "--up"},
@@ -35,17 +35,17 @@ inline constexpr std::array<base::FieldName, 5> kPositionFields{
      {"time step", "--step"},
      {"particles' diameter", "--particle-mm"}}};
 
-/// They lead to `arguments`.
+/// The options, stored in `arguments`.
 std::vector<CommandOption> position_options(PositionArguments& arguments);
 
-/// What they do, for a command's help.
+/// Their description for a command's help.
 extern const char* const kPositionNotes;
 
 calibrate::PositionsOptions read_position_options(const PositionArguments& arguments,
                                                   std::vector<std::string>& errors);
 
-/// Names of pictures, films, scans and folders, in which those of folders that hold none of these,
-/// but files of particles, have become the files' names.
+/// Names of pictures, films, scans and folders, with each folder that holds none of these but
+/// particle files replaced by the names of these files.
 std::vector<std::string> with_positions_of_folders(const std::vector<std::string>& names);
 
 }  // namespace repose::cli

@@ -11,8 +11,8 @@ namespace repose::cli {
 namespace {
 
 constexpr std::size_t kGap = 2;
-constexpr std::size_t kNarrowestFirst = 8;  // a first column with longer cells than fit
-constexpr std::size_t kNarrowestLast = 20;  // a last column that is wrapped
+constexpr std::size_t kNarrowestFirst = 8;  // of a first column with cells too long to fit
+constexpr std::size_t kNarrowestLast = 20;  // of a wrapped last column
 constexpr int kNarrowestTerminal = 40;
 
 std::size_t usable(int terminal_columns) {

@@ -8,14 +8,14 @@
 
 #include "vision/measure/repose_angle.h"
 
-/// What people read on a terminal: tables and paragraphs, as wide as it is. Letters are counted as
-/// UTF-8. What would control the terminal is spelt out, whatever a text comes from.
+/// Terminal output: tables and paragraphs, wrapped to its width. Characters are counted as UTF-8.
+/// Control characters are escaped in all texts.
 
 namespace repose::cli {
 
-/// Stands where a number does not exist.
+/// Shown for missing numbers.
 inline constexpr const char* kMissing = "–";
-/// Before what is said below a row.
+/// Indent of notes below a row.
 inline constexpr const char* kNoteIndent = "  ";
 
 enum class Align { left, right };
@@ -31,14 +31,15 @@ inline Column number_column(std::string heading) {
   return {.heading = std::move(heading), .align = Align::right};
 }
 
-/// Columns as wide as their widest cell. Where that is wider than the terminal, the last column is
-/// wrapped if it is aligned left, and a cell of the first that does not fit has a line of its own.
+/// Columns are as wide as their widest cell. If the table is wider than the terminal, the last
+/// column is wrapped if left-aligned, and a cell of the first column that does not fit gets its own
+/// line.
 class Table {
  public:
   explicit Table(std::vector<Column> columns);
 
-  /// Cells that are left out at the end are empty. The last one may have a colour, which takes no
-  /// room.
+  /// Cells omitted at the end are empty. The last one may have a colour, which does not count
+  /// towards its width.
   void add_row(std::vector<std::string> cells, Colour last = Colour::none);
 
   /// A paragraph below the last row.
@@ -63,10 +64,10 @@ class Table {
   std::vector<Row> rows_;
 };
 
-/// A text wrapped to the terminal: its first line behind `mark`, the others below its beginning.
+/// A text wrapped to the terminal: its first line follows `mark`, the others are indented to match.
 std::string paragraph(std::string_view mark, std::string_view text, int terminal_columns);
 
-/// Tables and paragraphs below each other, for a terminal of some width.
+/// A sequence of tables and paragraphs for a terminal of a given width.
 class Page {
  public:
   explicit Page(int terminal_columns) : columns_(terminal_columns) {}
@@ -74,7 +75,7 @@ class Page {
   void add_gap() { text_ += '\n'; }
   void add(const Table& table) { text_ += table.text(columns_); }
   void add(std::string_view text) { add("", text); }
-  /// To be copied: as they are, each with its end.
+  /// Lines to be copied: added unchanged, each with its line end.
   void add_lines(std::string_view lines) { text_ += lines; }
   void add(std::string_view mark, std::string_view text) {
     text_ += paragraph(mark, text, columns_);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kUsualColumns = 80;
 
-/// Null when it is not set.
+/// Null if it is not set.
 const char* environment(const char* name) {
   return std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody changes the environment
 }
@@ -48,7 +48,8 @@ namespace {
 
 constexpr const char* kClearLine = "\r\033[K";
 constexpr std::chrono::milliseconds kBetweenReports{200};
-constexpr double kEnoughToTell = .01;  // of the work done, before a time left means anything
+constexpr double kEnoughToTell =
+    .01;  // of the work done, before the remaining time can be estimated
 
 }  // namespace
 
@@ -125,7 +126,7 @@ void on_interrupt(int signal) {
 const std::atomic<bool>& watch_for_interrupt() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  // What nohup lets go on goes on.
+  // Processes started with nohup keep ignoring SIGHUP.
   if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   return is_interrupted;
 }

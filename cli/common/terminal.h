@@ -12,20 +12,20 @@ namespace repose::cli {
 
 bool is_terminal(std::FILE* stream);
 
-/// Columns of the terminal that `stream` is; 80 when it is none.
+/// Width of the terminal that `stream` is connected to, in columns; 80 if it is not a terminal.
 int columns_of(std::FILE* stream);
 
-/// Colours are for terminals, and not where NO_COLOR is set (https://no-color.org).
+/// True for terminals, unless NO_COLOR is set (https://no-color.org).
 bool wants_colour(std::FILE* stream);
 
 /// "40 s", "12 min": rounded up.
 std::string time_text(double seconds);
 
-/// One line on standard error that is written over, such as "measured 3 of 10, 12 s left"; only
-/// when that is a terminal. The line goes away with the object. Any thread may report.
+/// One line on standard error that is overwritten, such as "measured 3 of 10, 12 s left"; shown
+/// only on a terminal. The destructor removes the line. Any thread may report.
 class ProgressLine {
  public:
-  /// @param left  how the time left is said: "{} left"
+  /// @param left  format of the remaining time: "{} left"
   explicit ProgressLine(std::string left = "{} left");
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
@@ -35,12 +35,12 @@ class ProgressLine {
 
   bool is_shown() const { return is_shown_; }
 
-  /// What is done, and which fraction of all the work that is, from 0 to 1. A report that follows
-  /// another at once is not shown, unless show_next() says so.
+  /// What is done, and the completed fraction of all work, from 0 to 1. A report shortly after the
+  /// previous one is skipped unless show_next() was called.
   void report(const std::string& done, double fraction);
   void show_next();
 
-  /// ", 12 s left" for a fraction that tells; else empty.
+  /// ", 12 s left" if the fraction is large enough for an estimate; otherwise empty.
   std::string left_text(double fraction) const;
 
  private:
@@ -53,7 +53,7 @@ class ProgressLine {
   Clock::time_point next_shown_ = start_;
 };
 
-/// A progress line for a number of equal pieces of work.
+/// A progress line for a number of equal work items.
 class Progress {
  public:
   explicit Progress(std::size_t total, const char* done_word = "measured");
@@ -68,7 +68,7 @@ class Progress {
   ProgressLine line_;
 };
 
-/// A progress line for pieces of work that each tell how far they are, such as films.
+/// A progress line for work items that each report their own progress, such as films.
 class PartsProgress {
  public:
   explicit PartsProgress(std::size_t parts, const char* done_word);
@@ -83,8 +83,8 @@ class PartsProgress {
   ProgressLine line_;
 };
 
-/// From now on Ctrl-C (or SIGTERM, or the end of the terminal) makes what this returns true, for
-/// work to stop in good order; the second one ends the program at once.
+/// From now on Ctrl-C (or SIGTERM, or closing the terminal) sets the returned flag, so that work
+/// can stop in an orderly way; a second one ends the program at once.
 const std::atomic<bool>& watch_for_interrupt();
 
 }  // namespace repose::cli

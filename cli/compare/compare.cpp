@@ -34,7 +34,7 @@ namespace repose::cli {
 
 namespace {
 
-/// Carries out `repose compare` where one of both is more than one picture.
+/// Runs `repose compare` if either side has more than one picture.
 ExitCode compare_sets(const ComparePlan& plan, const std::atomic<bool>& is_interrupted) {
   std::optional<Progress> bar;
   const calibrate::SetsPlan& sets = plan;
@@ -71,8 +71,8 @@ struct MeasuredHeap {
   std::string error;
 };
 
-/// Half-width of the interval that holds 95 % of the flanks in all views: nobody knows which side
-/// of a scanned heap is which of another.
+/// Half-width of the interval that contains 95 % of the flanks in all views: it is unknown how the
+/// sides of two scanned heaps correspond.
 double scatter_of_sides(const std::vector<vision::ReposeAngle>& views) {
   std::vector<double> sides_rad;
   for (const vision::ReposeAngle& view : views) {
@@ -85,7 +85,7 @@ double scatter_of_sides(const std::vector<vision::ReposeAngle>& views) {
   return base::student_t_quantile(.975, sides.n - 1) * sides.sd.value_or(0);
 }
 
-/// The view of a scan that is nearest to the mean stands for it; the angle is the mean of all.
+/// A scan is represented by the view nearest to the mean; the angle is the mean of all.
 MeasuredHeap measured_scan(const std::filesystem::path& file,
                            const vision::MeasureOptions& options) {
   calibrate::ScanViews seen = calibrate::measure_scan_file(file, options);
@@ -152,8 +152,8 @@ bool is_same_measurement(const std::array<MeasuredHeap, 2>& heaps) {
                     same_box);
 }
 
-/// A photograph shows one side of a heap, and a scan's angle is the mean over all sides: how much
-/// they scatter is between the two.
+/// A photograph shows one side of a heap, while a scan's angle is the mean over all sides: the
+/// scatter of the sides is an uncertainty of their difference.
 void add_views_scatter(std::array<MeasuredHeap, 2>& heaps) {
   const bool is_mixed =
       heaps[0].between_views_rad.has_value() != heaps[1].between_views_rad.has_value();
@@ -187,7 +187,7 @@ void take_scan_scales(const std::array<MeasuredHeap, 2>& heaps, ComparePlan& pla
   }
 }
 
-/// Where the command gave none.
+/// Used if the command gave none.
 void take_saved_scales(const std::array<MeasuredHeap, 2>& heaps, ComparePlan& plan) {
   using vision::PictureScale;
   if (plan.comparing.scale[0] || !heaps[0].m_per_px || !heaps[1].m_per_px) return;

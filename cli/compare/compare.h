@@ -7,8 +7,8 @@
 
 namespace repose::cli {
 
-/// What `repose compare` is asked to do, as typed. "A,B" holds a value for each picture; one alone
-/// holds for both.
+/// The arguments of `repose compare`, as typed. "A,B" has a value for each picture; a single value
+/// applies to both.
 struct CompareArguments {
   std::vector<std::string> pictures;
   std::string mm_per_px;  ///< A,B
@@ -27,7 +27,7 @@ struct CompareArguments {
   bool groups_by_name = false;
 };
 
-/// Carries out `repose compare`.
+/// Runs `repose compare`.
 ExitCode run_compare(const CompareArguments& arguments);
 
 }  // namespace repose::cli

@@ -21,7 +21,7 @@ using vision::name_of;
 using Json = nlohmann::ordered_json;
 using BothLengths = std::array<std::optional<double>, 2>;
 
-/// BothLengths in the unit of the file: mm where the comparison has metres.
+/// BothLengths in the unit of the file: mm if the comparison is in metres.
 class LengthJson {
  public:
   explicit LengthJson(vision::LengthUnit unit) : per_unit_(shown_per_unit(unit)) {}
@@ -103,7 +103,7 @@ std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& 
   json["warnings"] = compare_warnings_json(comparison.warnings);
   if (is_refused) json["reason"] = comparison.reason;
   constexpr int kNoteIndent = 2;
-  // File names need not be UTF-8, JSON must be.
+  // File names need not be UTF-8, but JSON must be.
   return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

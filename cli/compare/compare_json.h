@@ -7,7 +7,7 @@
 
 namespace repose::cli {
 
-/// One object. A number that does not exist is null.
+/// One object. Missing numbers are null.
 std::string compare_json(const ComparePlan& plan, const vision::HeapComparison& comparison);
 
 }  // namespace repose::cli

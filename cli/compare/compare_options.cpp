@@ -29,8 +29,8 @@ std::array<std::string, 2> for_each_picture(const std::string& text) {
   return {text.substr(0, comma), text.substr(comma + 1)};
 }
 
-/// What can be meant, mm: of a pixel, see vision/measure/scale_bar.h; of a heap's base, that it is
-/// no wider than a stockpile.
+/// Plausible range, mm: for a pixel, see vision/measure/scale_bar.h; for a heap's base, up to the
+/// width of a stockpile.
 std::array<double, 2> possible_lengths(PictureScale::From from) {
   constexpr double kNarrowestBase_mm = .1, kWidestBase_mm = 1e6;
   if (from == PictureScale::From::base) return {kNarrowestBase_mm, kWidestBase_mm};
@@ -66,7 +66,7 @@ void read_scales(const CompareArguments& arguments, ComparePlan& plan) {
   read_scale("--base-mm", arguments.base_mm, PictureScale::From::base, plan);
 }
 
-/// Whether the files beside the pictures may give a scale: they are read with them.
+/// Whether files beside the pictures may give a scale: they are read with the pictures.
 bool may_have_saved_scales(const ComparePlan& plan) {
   const auto has_file = [](const std::filesystem::path& picture) {
     std::error_code ignored;
@@ -139,7 +139,7 @@ void read_measuring_of_both(const CompareArguments& arguments, ComparePlan& plan
                                         .fields = kCompareFields[i],
                                         .exclude_option = kExcludeOptions[i]},
                                        errors);
-    for (std::string& error : errors) {  // what is typed for both need not be said twice
+    for (std::string& error : errors) {  // errors that apply to both are reported once
       const auto end = plan.errors.end();
       if (std::find(plan.errors.begin(), end, error) == end) plan.errors.push_back(error);
     }
@@ -148,14 +148,14 @@ void read_measuring_of_both(const CompareArguments& arguments, ComparePlan& plan
   read(1, arguments.exclude_second);
 }
 
-/// What holds for two pictures only.
+/// Refuses options that only apply to two pictures.
 void check_options_of_sets(const CompareArguments& arguments, ComparePlan& plan) {
   if (arguments.base_mm.empty()) return;
   plan.errors.emplace_back(
       "--base-mm is the base of one heap, and a set has several. Fix: give --mm-per-px.");
 }
 
-/// What holds for photographs only is not taken where it would do nothing.
+/// Refuses options for photographs where they would have no effect.
 void check_options_of_drawn(const CompareArguments& arguments, ComparePlan& plan) {
   const std::array<const std::vector<std::string>*, 2> boxes = {&arguments.exclude_first,
                                                                 &arguments.exclude_second};
@@ -180,7 +180,8 @@ void check_options_of_drawn(const CompareArguments& arguments, ComparePlan& plan
   }
 }
 
-/// Two pictures are two heaps, and simulated heaps have views that belong to them anyway.
+/// Not for pairs, as two pictures are two heaps, nor for simulated heaps, whose views belong
+/// together anyway.
 void read_grouping(const CompareArguments& arguments, ComparePlan& plan) {
   plan.groups_by_name = arguments.groups_by_name;
   if (!plan.groups_by_name) return;

@@ -13,9 +13,9 @@
 
 namespace repose::cli {
 
-/// The option with which each picture's boxes are left out.
+/// The option that excludes boxes in each picture.
 inline constexpr std::array kExcludeOptions = {"--exclude-first", "--exclude-second"};
-/// The options of each side by the fields that a measurement advises to give.
+/// Maps the fields named in a measurement's advice to each side's options.
 inline constexpr std::array<std::array<base::FieldName, 2>, 2> kCompareFields{
     {{{{"excluded box", kExcludeOptions[0]}, {"camera pitch", "--pitch-deg"}}},
      {{{"excluded box", kExcludeOptions[1]}, {"camera pitch", "--pitch-deg"}}}}};
@@ -30,7 +30,8 @@ struct ComparePlan : calibrate::SetsPlan {
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
 
-  /// Two pictures or scans are compared with each other; all else as sets of heaps.
+  /// Whether two pictures or scans are compared directly; everything else is compared as sets of
+  /// heaps.
   bool is_pair() const {
     const auto is_one = [](const HeapSource& source) {
       return source.is_file && source.kind != HeapSource::Kind::simulated;
@@ -39,7 +40,8 @@ struct ComparePlan : calibrate::SetsPlan {
   }
 };
 
-/// Reads and checks all that was typed, also whether the output can be written. All errors at once.
+/// Reads and checks all arguments, and whether the output can be written. Reports all errors at
+/// once.
 ComparePlan plan_compare(const CompareArguments& arguments);
 
 Command compare_command();

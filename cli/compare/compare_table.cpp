@@ -19,7 +19,7 @@ namespace repose::cli {
 
 namespace {
 
-/// An angle and the half-width of its interval, in degrees, as tables show them.
+/// An angle and the half-width of its interval, in degrees, as shown in tables.
 std::string angle_cell(const std::optional<double>& angle_rad,
                        const std::optional<double>& uncertainty_rad) {
   if (!angle_rad) return kMissing;
@@ -35,7 +35,7 @@ std::string difference_cell(const std::optional<vision::AngleDifference>& angle)
 using Angle = std::optional<double>;
 using Cells = std::array<Angle, 2>;
 
-/// Lengths as they are shown: in mm, or in % without a scale.
+/// Lengths as shown: in mm, or in % without a scale.
 class Lengths {
  public:
   explicit Lengths(vision::LengthUnit unit) : is_metric_(unit == vision::LengthUnit::metre) {}
@@ -60,13 +60,13 @@ class Lengths {
   bool is_metric_;
 };
 
-/// What the angles are by, where that is not the usual definition.
+/// The definition of the angles, unless it is the default.
 void add_definition(Table& table, const calibrate::SetsPlan& plan) {
   const std::string definition = plan.measuring.front().definition_text();
   if (!definition.empty()) table.add_note("", "all angles by " + definition);
 }
 
-/// A name and three columns of numbers, as wide in all tables of the comparison.
+/// A name and three columns of numbers, with the same widths in all tables of the comparison.
 Table comparison_table(const std::array<const char*, 4>& headings) {
   constexpr std::size_t kNameWidth = 24, kCellWidth = 14;
   std::vector<Column> columns = {{.heading = headings[0], .min_width = kNameWidth}};
@@ -238,7 +238,7 @@ std::string outlines_text(const vision::SetComparison& comparison,
   return text + '.';
 }
 
-/// Each picture of a bench that gave no angle, and why.
+/// Each bench picture that gave no angle, and why.
 void add_refused(const HeapSource& source, const std::vector<vision::SeenHeap>& heaps, Page& page) {
   if (source.kind == HeapSource::Kind::simulated) return;
   const auto has_angle = [](const vision::ReposeAngle& view) { return view.angle_rad.has_value(); };

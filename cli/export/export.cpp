@@ -30,7 +30,7 @@ using Json = nlohmann::ordered_json;
 using calibrate::Conversion;
 using calibrate::StudyExport;
 
-/// An export worked out, but for its output.
+/// A complete export, before its output.
 struct ExportPlan {
   calibrate::ExportRequest request;
   fs::path out_folder;
@@ -127,7 +127,7 @@ std::string export_json(const ExportPlan& plan) {
   for (const std::vector<double>& set : plan.sets) json["sets"].push_back(set);
   json["warnings"] = plan.made.warnings;
   constexpr int kNoteIndent = 2;
-  // Names of folders need not be UTF-8, JSON must be.
+  // Folder names need not be UTF-8, but JSON must be.
   return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -152,7 +152,7 @@ std::string export_table(const ExportPlan& plan, int columns) {
 }  // namespace
 
 ExitCode run_export(const ExportArguments& arguments) {
-  // A signal waits until nothing is half done.
+  // A signal is only handled once nothing is half done.
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const ExportPlan plan = plan_export(arguments);
   print_lines(plan.errors);

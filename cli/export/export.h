@@ -7,7 +7,7 @@
 
 namespace repose::cli {
 
-/// What `repose export` is asked to do, as typed.
+/// The arguments of `repose export`, as typed.
 struct ExportArguments {
   std::string folder;  ///< of the study
   std::string target;
@@ -17,7 +17,7 @@ struct ExportArguments {
   std::string json_file;
 };
 
-/// Carries out `repose export`.
+/// Runs `repose export`.
 ExitCode run_export(const ExportArguments& arguments);
 
 Command export_command();

@@ -23,9 +23,9 @@ namespace repose::cli {
 
 namespace {
 
-/// What can be typed for an option or a word, told by how its help calls the value.
+/// What can be typed for an option or a word, derived from its value's name in the help.
 struct ValueKind {
-  std::vector<std::string> words;  ///< the small ones of "auto|paper"
+  std::vector<std::string> words;  ///< the lower-case ones of "auto|paper"
   bool is_file = false;            ///< also folders
 };
 
@@ -118,7 +118,7 @@ std::string names_of(const std::vector<Command>& commands) {
   return names + "--help --version";
 }
 
-/// What follows one option, in bash.
+/// Completion after one option, in bash.
 std::string bash_case(const Command& command, const CommandOption& option) {
   const ValueKind kind = value_kind(option);
 
@@ -146,7 +146,7 @@ std::string bash_case(const Command& command) {
                      takes_files ? "1" : "");
 }
 
-/// A text between single quotes, in which _arguments gives some letters a meaning.
+/// A text in single quotes, with characters that are special to _arguments escaped.
 std::string zsh_text(const std::string& text) {
   std::string quoted;
 
@@ -235,7 +235,7 @@ struct ManualPage {
   std::string text;  ///< in the language of man(7)
 };
 
-/// Text that is printed as it is: hyphens that can be copied, no line that is a request.
+/// Text that man prints unchanged: hyphens that can be copied, no line taken as a request.
 std::string literal(const std::string& text) {
   std::string escaped;
   bool begins_line = true;
@@ -261,7 +261,7 @@ std::string heading(const std::string& page) {
   return fmt::format(".TH {} 1 \"\" \"{}\" \"repose\"\n", literal(name), base::kProgram);
 }
 
-/// A section in which every line stays a line.
+/// A section in which line breaks are kept.
 std::string as_typed(const std::string& name, const std::string& text) {
   const std::size_t first = text.find_first_not_of('\n');
   if (first == std::string::npos) return {};
@@ -308,7 +308,7 @@ ManualPage program_page(const std::vector<Command>& commands) {
   return {"repose.1", text + as_typed("EXAMPLES AND EXIT CODES", kExamples)};
 }
 
-/// One page of the program, one a command. Proved by Manual.* in tests/cli.
+/// One page for the program, and one for each command. Proved by Manual.* in tests/cli.
 std::vector<ManualPage> manual_pages(const std::vector<Command>& commands) {
   std::vector<ManualPage> pages = {program_page(commands)};
   for (const Command& command : commands) pages.push_back(page_of(command));

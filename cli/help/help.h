@@ -6,7 +6,7 @@
 
 namespace repose::cli {
 
-/// What the program is for, in its help and its manual.
+/// The program's purpose, in its help and its manual.
 inline constexpr const char* kAbout =
     "Measures heaps of grains in photographs, simulates the bench experiments that\n"
     "give contact parameters, renders the simulations, and calibrates the parameters\n"
@@ -33,7 +33,7 @@ Exit codes: 0 done, 1 internal error, 2 bad usage or input,
 3 nothing measurable, 130 interrupted.
 )";
 
-/// The commands that tell of all others: completion and manual.
+/// The commands that describe all others: completion and manual.
 std::vector<Command> help_commands(const std::vector<Command>& others);
 
 }  // namespace repose::cli

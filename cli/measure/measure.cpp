@@ -48,7 +48,7 @@ void print_errors(const std::vector<calibrate::MeasuredPicture>& pictures) {
   }
 }
 
-/// Of pictures and films that are copies of an earlier one.
+/// Marks pictures and films that are duplicates of an earlier one.
 void name_copies(std::vector<calibrate::MeasuredPicture>& pictures) {
   std::vector<calibrate::MeasuredPicture*> whole;
   std::vector<std::filesystem::path> files;

@@ -54,7 +54,7 @@ void read_places(const char* option, const std::vector<std::string>& typed,
   }
 }
 
-/// What a person says of every picture that is measured.
+/// The user's hints for every measured picture.
 void read_hints(const MeasureArguments& arguments, MeasurePlan& plan) {
   vision::Hints& hints = plan.options.hints;
   hints.turn_deg = read_choice<int>({"--rotate", arguments.rotate, plan.errors},
@@ -97,7 +97,7 @@ void read_step(const MeasureArguments& arguments, MeasurePlan& plan) {
                   arguments.every));
 }
 
-/// What is said of scans and of particles means nothing for pictures, nor the other way round.
+/// Options for scans and particles do not apply to pictures, nor the other way round.
 void read_scans_and_particles(const MeasureArguments& arguments, MeasurePlan& plan) {
   plan.positions = read_position_options(arguments.positions, plan.errors);
   vision::ScanOptions& scan = plan.scan;
@@ -119,7 +119,7 @@ void read_scans_and_particles(const MeasureArguments& arguments, MeasurePlan& pl
   }
 }
 
-/// Options that say nothing of any of the files, or that not all of them take.
+/// Refuses options that apply to none of the files, or not to all of them.
 void check_kinds_of_files(const MeasureArguments& arguments, MeasurePlan& plan) {
   if (plan.pictures.empty()) return;
   const auto scan = std::ranges::find_if(plan.pictures, vision::has_scan_ending);

@@ -12,7 +12,7 @@
 
 namespace repose::cli {
 
-/// Its options by the fields that a measurement finds fault with, or advises to give.
+/// Maps the fields named in a measurement's errors and advice to options.
 inline constexpr std::array<base::FieldName, 14> kMeasureFields{
     {{"excluded box", "--exclude X,Y,W,H"},
      {"camera pitch", "--pitch-deg"},
@@ -29,9 +29,9 @@ inline constexpr std::array<base::FieldName, 14> kMeasureFields{
      kPositionFields[3],
      kPositionFields[4]}};
 
-/// What `repose measure` is asked to do, as typed.
+/// The arguments of `repose measure`, as typed.
 struct MeasureArguments {
-  std::vector<std::string> pictures;  ///< and films and particles: files and folders
+  std::vector<std::string> pictures;  ///< also films and particles: files and folders
   std::string method;
   std::string window;
   std::string definition;
@@ -63,11 +63,11 @@ struct MeasureArguments {
 /// A `repose measure` that can be carried out.
 struct MeasurePlan : calibrate::FileMeasuring {
   std::vector<std::string> errors;  ///< empty: it can be carried out
-  std::vector<std::string> notes;   ///< for the user to know
+  std::vector<std::string> notes;   ///< for the user
 };
 
-/// Reads and checks all that was typed, also whether the output can be written, so that no work is
-/// lost. All errors at once.
+/// Reads and checks all arguments, and whether the output can be written, so that no work is lost.
+/// Reports all errors at once.
 MeasurePlan plan_measure(const MeasureArguments& arguments);
 
 Command measure_command();

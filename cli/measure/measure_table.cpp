@@ -21,8 +21,8 @@ namespace repose::cli {
 
 namespace {
 
-/// The command that measures a refused picture with its proposal and with all else that was said of
-/// it; and what it gives, or that its places are to be corrected.
+/// The command that measures a refused picture with the proposal and all its other settings; and
+/// its result, or that its positions need correcting.
 std::string proposal_text(const calibrate::MeasuredPicture& picture) {
   const vision::Proposal& proposal = *picture.proposal;
   calibrate::MeasuredPicture proposed;
@@ -77,7 +77,7 @@ void add_definitions(Table& table, const vision::ReposeAngle& angle) {
   }
 }
 
-/// What of the film was measured.
+/// Which part of the film was measured.
 std::string film_text(const calibrate::FilmedPicture& filmed) {
   const std::string film = fmt::format("{:.4g} frames per second, {:.3g} s",
                                        filmed.film.frames_per_s, filmed.film.length_s);
@@ -86,8 +86,8 @@ std::string film_text(const calibrate::FilmedPicture& filmed) {
                      filmed.stretch->from_s, filmed.stretch->to_s, filmed.stretch->frames, film);
 }
 
-/// Its file is in the row of the heap at rest; what is to be known of it is in the files alone, for
-/// there may be hundreds.
+/// The file is named in the row of the heap at rest; notes on frames are only in the output files,
+/// as there may be hundreds.
 void add_frame(Table& table, const calibrate::MeasuredPicture& picture, const TableStyle& style) {
   const vision::ReposeAngle& angle = picture.angle;
   table.add_row(
@@ -99,7 +99,7 @@ void add_frame(Table& table, const calibrate::MeasuredPicture& picture, const Ta
       row_colour(picture, style.has_colour));
 }
 
-/// "105.2 ± 3.1": as many digits as the uncertainty has.
+/// "105.2 ± 3.1": with the digits of the uncertainty.
 std::string size_text(const vision::Estimate& estimate) {
   if (estimate.uncertainty == 0) return fmt::format("{:.4g}", estimate.value);
   constexpr double kTwoDigits = 10;
@@ -159,7 +159,7 @@ std::string silhouettes_text(const std::optional<calibrate::ScanViews>& silhouet
       name_of(silhouettes->angle.status), to_degrees(silhouettes->between_views_rad.value_or(0)));
 }
 
-/// Of a scan, whose heap has azimuths and no sides.
+/// For a scan, whose heap has azimuths instead of sides.
 void add_scan(Table& table, const calibrate::MeasuredPicture& picture,
               const vision::ScannedHeap& scan, const TableStyle& style) {
   const vision::ReposeAngle& angle = scan.angle;

@@ -13,7 +13,7 @@ struct TableStyle {
   bool shows_definitions = false;
 };
 
-/// A row for each picture, film and frame of a series for people to read; below it its warnings, or
+/// A readable table: a row for each picture, film and frame of a series; below it its warnings, or
 /// why it was refused.
 std::string measure_table(const std::vector<calibrate::MeasuredPicture>& pictures,
                           const TableStyle& style);

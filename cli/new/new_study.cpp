@@ -167,7 +167,7 @@ Examples:
     --grain-mm 7.6,6.9,6.2 --tube-mm 50x150
 )";
 
-/// With the usual ones, as they are typed.
+/// Includes the default ones, as typed.
 std::string experiments_help() {
   std::vector<std::string_view> names;
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {

@@ -7,7 +7,7 @@
 
 namespace repose::cli {
 
-/// What `repose new` is asked to do, as typed.
+/// The arguments of `repose new`, as typed.
 struct NewArguments {
   std::string study;
   std::string grains;  ///< a kind of grain
@@ -18,10 +18,10 @@ struct NewArguments {
   std::string grain_mm;  ///< L,W,T
   std::string density_kg_m3;
   std::string tube_mm;      ///< DxH
-  std::string experiments;  ///< "drop,tilt"; empty: the usual ones
+  std::string experiments;  ///< "drop,tilt"; empty: the default ones
 };
 
-/// Carries out `repose new`.
+/// Runs `repose new`.
 ExitCode run_new(const NewArguments& arguments);
 
 Command new_command();

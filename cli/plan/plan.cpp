@@ -26,13 +26,13 @@ namespace {
 constexpr double kMinute_s = 60;
 
 struct PlanOptions {
-  CalibratePlan study;  ///< but its problem
+  CalibratePlan study;  ///< without its problem
   calibrate::OfferedStudy offered;
   int readings = calibrate::kUsualReadings;
   double core_s = 0;
 };
 
-/// All, or those typed.
+/// All experiments, or those typed.
 std::set<dem::Experiment> possible_experiments(const std::string& typed,
                                                std::vector<std::string>& errors) {
   if (typed.empty()) return calibrate::every_experiment();

@@ -8,7 +8,7 @@
 
 namespace repose::cli {
 
-/// `repose plan`, as typed.
+/// The arguments of `repose plan`, as typed.
 struct PlanArguments {
   std::string study;
   std::vector<std::string> settings;
@@ -20,7 +20,7 @@ struct PlanArguments {
   std::string json_file;
 };
 
-/// Carries out `repose plan`.
+/// Runs `repose plan`.
 ExitCode run_plan(const PlanArguments& arguments);
 
 /// `repose plan`.

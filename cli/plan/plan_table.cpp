@@ -14,9 +14,9 @@
 namespace repose::cli {
 namespace {
 
-constexpr double kSeen = 1;  // uncertainties: less is no effect
+constexpr double kSeen = 1;  // uncertainties: less counts as no effect
 
-/// "µs w" for contact.particle_wall.sliding_friction; "g" for grains, and "tube" and so on.
+/// "µs w" for contact.particle_wall.sliding_friction; "g" for grains, "tube" and so on.
 std::string heading_of(const std::string& parameter) {
   const std::string_view which = parameter.ends_with("restitution")            ? "e"
                                  : parameter.ends_with("sliding_friction")     ? "µs"
@@ -91,7 +91,7 @@ Table outlook_table(const calibrate::Plan& plan) {
   return table;
 }
 
-/// Names of the parameters that stay open in more than one material of five.
+/// Names of the parameters that remain undetermined in more than one material out of five.
 std::vector<std::string> open_after(const calibrate::Plan& plan,
                                     const calibrate::DesignForecast& outlook) {
   std::vector<std::string> open;
@@ -115,7 +115,7 @@ std::string conclusion(const calibrate::Plan& plan) {
       others, fmt::join(open, ", "));
 }
 
-/// What the study needs to have it.
+/// The study section needed to add the experiment.
 void add_section(const dem::ExperimentEntry& entry, const calibrate::OfferedStudy& offered,
                  Page& page) {
   page.add_gap();

@@ -6,7 +6,7 @@
 
 namespace repose::cli {
 
-/// A plan for people to read.
+/// A plan as a readable table.
 std::string plan_table(const calibrate::Plan& plan, const calibrate::OfferedStudy& offered,
                        int terminal_columns);
 

@@ -56,7 +56,7 @@ Json ends(const std::optional<vision::Segment>& line) {
   return {line->from.x, line->from.y, line->to.x, line->to.y};
 }
 
-/// What is known exactly about a picture, for programs.
+/// The exact ground truth of a picture, for programs.
 std::string truth_json(const render::Truth& truth) {
   Json outline = Json::array();
   for (const vision::Point& point : truth.outline) outline.push_back({point.x, point.y});
@@ -66,7 +66,7 @@ std::string truth_json(const render::Truth& truth) {
   return json.dump() + '\n';
 }
 
-/// The same about a film.
+/// The same for a film.
 std::string film_truth_json(const render::FilmTruth& truth) {
   Json frames = Json::array();
   for (const render::FilmTruth::Frame& frame : truth.frames) {
@@ -89,7 +89,7 @@ std::string film_truth_json(const render::FilmTruth& truth) {
   return json.dump() + '\n';
 }
 
-/// So that a film with a frame for each state plays as fast as the run went.
+/// Frame rate at which a film with a frame for each state plays in real time.
 double frames_per_s(const std::vector<double>& times_s) {
   constexpr double kSlowest = 1, kFastest = 60;
   const double lasted_s = times_s.back() - times_s.front();
@@ -119,7 +119,7 @@ vision::Picture picture_of(render::FilmedRun& run, int frame, const render::Came
   return renderer.draw(run.scene_at(run.time_s(frame)), camera, plan.size, plan.style).picture;
 }
 
-/// Draws the film of a run, and writes what is exact about it where that is asked for.
+/// Draws the film of a run, and writes its ground truth if requested.
 /// @throws base::InputError  the trajectory cannot be read, or a file cannot be written.
 void render_run_film(const RenderArguments& arguments, const RenderPlan& plan) {
   render::RunStates states = states_of(arguments.state);
@@ -193,7 +193,7 @@ void render_turntable(const RenderArguments& arguments, const RenderPlan& plan,
   film.close();
 }
 
-/// Of a state, or of any program's particles: what was made of these is said.
+/// The scene of a state, or of any program's particles; prints how these were interpreted.
 render::Scene scene_in(const RenderArguments& arguments, const RenderPlan& plan) {
   calibrate::PositionsFile file = calibrate::read_positions(arguments.state, plan.positions);
   if (!file.heap.has_unit) {

@@ -7,9 +7,9 @@
 
 namespace repose::cli {
 
-/// What `repose render` is asked to do, as typed.
+/// The arguments of `repose render`, as typed.
 struct RenderArguments {
-  std::string state;  ///< .vtp, or .pvd for a film; or a file of particles
+  std::string state;  ///< .vtp, or .pvd for a film; or a particle file
   PositionArguments positions;
   std::string view;   ///< xz or an azimuth in degrees
   std::string style;  ///< silhouette|photo
@@ -30,7 +30,7 @@ struct RenderArguments {
   std::string out_file;
 };
 
-/// Carries out `repose render`.
+/// Runs `repose render`.
 ExitCode run_render(const RenderArguments& arguments);
 
 }  // namespace repose::cli

@@ -27,7 +27,7 @@ void read_view(const std::string& text, RenderPlan& plan) {
   plan.level.azimuth_rad = azimuth_rad.value_or(plan.level.azimuth_rad);
 }
 
-/// As the study has it; none where it does not say, or where there is no study.
+/// From the study; std::nullopt if it is not stated, or if there is no study.
 std::optional<render::Colour> grain_colour(const RenderArguments& arguments, RenderPlan& plan) {
   if (arguments.study.empty()) return std::nullopt;
   try {
@@ -77,7 +77,7 @@ void read_style(const RenderArguments& arguments, RenderPlan& plan) {
   }
 }
 
-/// One KEY=VALUE of --camera; false when there is no such key or it has no number.
+/// Reads one KEY=VALUE of --camera; false if the key is unknown or has no number.
 bool read_camera_part(std::string_view part, LensPlan& lens) {
   const std::size_t equals = part.find('=');
   if (equals == std::string_view::npos) return false;
@@ -139,7 +139,7 @@ void read_turntable(const RenderArguments& arguments, RenderPlan& plan) {
   }
 }
 
-/// How a trajectory is filmed in real time.
+/// Options for filming a trajectory in real time.
 void read_shutter(const RenderArguments& arguments, RenderPlan& plan) {
   constexpr double kMaxPerS = 10'000, kLongest_s = 60;
   const auto fps =
@@ -215,7 +215,7 @@ render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene) {
 
 namespace {
 
-/// Pictures have a mark of their own.
+/// Pictures have their own mark.
 std::string_view mark_of(RenderOutput output) {
   switch (output) {
     case RenderOutput::film:

@@ -15,7 +15,7 @@
 
 namespace repose::cli {
 
-/// Its options by the fields that the library finds fault with.
+/// Maps the fields named in library errors to options.
 inline constexpr std::array kRenderFields{base::FieldName{"picture size", "--size"},
                                           kPositionFields[0],
                                           kPositionFields[1],
@@ -33,7 +33,7 @@ struct LensPlan {
 
 enum class RenderOutput { picture, model, film };
 
-/// What the words of `repose render` come down to.
+/// A parsed `repose render` command.
 struct RenderPlan {
   RenderOutput output = RenderOutput::picture;
   bool is_series = false;  ///< the state is a trajectory
@@ -43,11 +43,11 @@ struct RenderPlan {
   render::PictureSize size;
   render::Style style;
   int turntable_frames = 0;
-  std::optional<render::Shutter> shutter;  ///< none: a frame for each state of a trajectory
-  std::vector<std::string> errors;         ///< all of them; empty when it can be carried out
+  std::optional<render::Shutter> shutter;  ///< std::nullopt: a frame for each state of a trajectory
+  std::vector<std::string> errors;         ///< all errors; empty: it can be carried out
 };
 
-/// The camera of the plan before a scene.
+/// The plan's camera, placed in front of a scene.
 /// @throws base::InputError  see render::camera_on().
 render::Camera camera_of(const RenderPlan& plan, const render::Scene& scene);
 

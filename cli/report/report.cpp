@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a page is made from: it must not be written over.
+/// The files a page is made from, which must not be overwritten.
 std::vector<fs::path> files_read(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const char* name : {calibrate::kStudyCopy, calibrate::kClumpCopy, calibrate::kNotesFile,
@@ -40,7 +40,7 @@ std::vector<fs::path> files_read(const fs::path& folder) {
   return files;
 }
 
-/// Before the long work: where the page and its tables would go can be written.
+/// Checks before the long work that the page and its tables can be written.
 void check_places(const fs::path& folder, const fs::path& page, const fs::path& tables) {
   std::vector<std::string> errors;
   check_output_places({page_place("--out", page.string())}, files_read(folder), errors);
@@ -53,7 +53,7 @@ void check_places(const fs::path& folder, const fs::path& page, const fs::path& 
 }  // namespace
 
 ExitCode run_report(const ReportArguments& arguments) {
-  // A signal waits until nothing is half done.
+  // A signal is only handled once nothing is half done.
   const std::atomic<bool>& is_interrupted = watch_for_interrupt();
   const fs::path folder = arguments.folder;
   const fs::path page =

@@ -7,14 +7,14 @@
 
 namespace repose::cli {
 
-/// What `repose report` is asked to do, as typed.
+/// The arguments of `repose report`, as typed.
 struct ReportArguments {
   std::string folder;         ///< that repose calibrate --out wrote
   std::string out_file;       ///< empty: FOLDER/report.html
   std::string tables_folder;  ///< empty: FOLDER/tables; "none": no tables
 };
 
-/// Carries out `repose report`.
+/// Runs `repose report`.
 ExitCode run_report(const ReportArguments& arguments);
 
 Command report_command();

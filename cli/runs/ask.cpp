@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `repose ask`, as typed.
+/// The arguments of `repose ask`, as typed.
 struct AskArguments {
   std::string study;
   std::vector<std::string> runs;
@@ -59,7 +59,7 @@ std::string table_of(const calibrate::TableStudy& study, const calibrate::NextRu
   return page.text();
 }
 
-/// Whether somebody has filled in runs that were asked for before. What cannot be read, neither.
+/// Whether previously requested runs have been filled in; also true if the file cannot be read.
 bool is_filled_in(const fs::path& file, const calibrate::TableStudy& study) {
   if (!fs::exists(file)) return false;
   try {

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// `repose predict`, as typed.
+/// The arguments of `repose predict`, as typed.
 struct PredictArguments {
   std::string study;
   std::vector<std::string> runs;
@@ -35,7 +35,7 @@ struct PredictArguments {
   std::string json_file;
 };
 
-/// Of a table, or of a study that was calibrated in simulations.
+/// From a table, or from a study calibrated with simulations.
 calibrate::KnownRuns known_runs(const PredictArguments& arguments) {
   if (!arguments.runs.empty()) {
     const calibrate::TableStudy study =

@@ -2,7 +2,7 @@
 
 #include "cli/common/command.h"
 
-/// Commands on runs that are there: what readings they predict, and which to make next.
+/// Commands on existing runs: which readings they predict, and which runs to make next.
 namespace repose::cli {
 
 Command predict_command();

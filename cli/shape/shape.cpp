@@ -155,11 +155,11 @@ std::string shape_json(const dem::ClumpFile& clump, std::optional<double> densit
                   {"repairs", clump.repairs},
                   {"warnings", warnings_json(clump)}};
   constexpr int kNoteIndent = 2;
-  // File names need not be UTF-8, JSON must be.
+  // File names need not be UTF-8, but JSON must be.
   return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-/// Its options by the fields that the library finds fault with.
+/// Maps the fields named in library errors to options.
 inline constexpr std::array<base::FieldName, 6> kShapeFields{
     {{"size", "--size-mm"},
      {"tip", "--tip"},
@@ -168,14 +168,14 @@ inline constexpr std::array<base::FieldName, 6> kShapeFields{
      {"more spheres", "--spheres"},
      {"smaller volume error", "--volume-error"}}};
 
-/// What the words of `repose shape` come down to.
+/// A parsed `repose shape` command.
 struct ShapePlan {
-  std::optional<dem::CalliperSizes> sizes;  ///< else the scan is read
+  std::optional<dem::CalliperSizes> sizes;  ///< std::nullopt: a scan is read
   dem::ScanUnit unit = dem::ScanUnit::millimetre;
   dem::FillOptions fill;
   std::optional<double> density_kg_m3;
   dem::ShapeFormat mesh_format = dem::ShapeFormat::glb;
-  std::vector<std::string> errors;  ///< all of them; empty when it can be carried out
+  std::vector<std::string> errors;  ///< all errors; empty: it can be carried out
 };
 
 void add_problems(const std::vector<base::Fault>& problems, ShapePlan& plan) {

@@ -61,7 +61,7 @@ std::size_t count_done(const Repeats& repeats) {
       repeats.runs, [](const calibrate::RunResult& run) { return run.failure.empty(); }));
 }
 
-/// What is left of a batch that gave no result.
+/// What is available from a batch that gave no result.
 std::string finished_text(const SimulatePlan& plan, const Repeats& repeats) {
   const std::size_t done = count_done(repeats);
   return fmt::format("{} of {} repeats were finished{}", done, plan.seeds.size(),
@@ -70,13 +70,13 @@ std::string finished_text(const SimulatePlan& plan, const Repeats& repeats) {
                          : "");
 }
 
-/// How an interrupted batch goes on.
+/// How to continue an interrupted batch.
 std::string continue_text(const SimulatePlan& plan) {
   return plan.out_folder.empty() ? "Add --out FOLDER to make it resumable."
                                  : "The same command resumes from here.";
 }
 
-/// Why repeats gave nothing, by their seeds. What is wrong with the input is so for every seed.
+/// Why repeats gave no result, by seed. Input errors apply to every seed.
 std::map<std::uint64_t, std::string> reasons_of(const Repeats& repeats) {
   std::map<std::uint64_t, std::string> reasons;
   for (std::size_t k = 0; k < repeats.runs.size(); ++k) {
@@ -97,8 +97,8 @@ std::map<std::uint64_t, std::string> reasons_of(const Repeats& repeats) {
   return reasons;
 }
 
-/// Says why there is no result, each reason once; programs are told as well, where one asks: a
-/// value of null, and why.
+/// Prints why there is no result, each reason once; for programs, if requested, also writes JSON
+/// with a null value and the reasons.
 ExitCode fail(const SimulatePlan& plan, const Repeats& repeats) {
   std::set<std::string> told;
   for (const auto& [seed, reason] : reasons_of(repeats)) {
@@ -128,9 +128,9 @@ Outputs results_of(const SimulatePlan& plan, const Repeats& repeats) {
 
 /// Exit codes: 2 for a study or options that cannot be run; 3 (nothing measurable) when a run went
 /// unstable or gave no reading: there is no result, and the mean of the other repeats would not be
-/// one; 130 when interrupted. States of repeats that were finished are whole then, result.json and
-/// --json are not written. With an --out folder the same call then goes on where it was
-/// interrupted, to the same bytes.
+/// one; 130 when interrupted. Then states of finished repeats are complete, but result.json and
+/// --json are not written. With an --out folder the same call continues where it was interrupted,
+/// to the same bytes.
 ExitCode run_simulate(const SimulateArguments& arguments) {
   const SimulatePlan plan = plan_simulate(arguments);
   print_lines(plan.errors);

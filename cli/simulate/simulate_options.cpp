@@ -26,7 +26,8 @@ constexpr int kMaxRepeats = 100'000;
 constexpr std::array kSimulateFields{base::FieldName{"setting", "--set"}};
 constexpr int kMaxViews = 360;
 
-/// The whole text as a number from `least` to `most`; an error otherwise. None when it is empty.
+/// The whole text as a number from `least` to `most`; otherwise adds an error. std::nullopt if
+/// empty.
 template <typename Number>
 std::optional<Number> number_of(const std::string& option, const std::string& text, Number least,
                                 Number most, const std::string& fix, SimulatePlan& plan) {
@@ -69,7 +70,7 @@ void read_views(const SimulateArguments& arguments, SimulatePlan& plan) {
   }
 }
 
-/// The experiment must be described, and what it needs must have a value.
+/// The experiment must be described, and everything it needs must have a value.
 void check_study(SimulatePlan& plan) {
   const std::string file = plan.study.file.string();
   const dem::ExperimentEntry& entry = *plan.experiment;
@@ -115,14 +116,14 @@ void lock_folder(SimulatePlan& plan) {
   }
 }
 
-/// What the folder holds may be gone on with, if it is of the same run.
+/// The folder's content can be continued if it is of the same run.
 void check_saved(SimulatePlan& plan) {
   const std::string error = error_of_saved(plan);
   if (!error.empty()) plan.errors.push_back(error);
 }
 
-/// None where the air makes no difference, or nothing was measured. A simulation needs no readings,
-/// and is made with impossible ones.
+/// std::nullopt if the air makes no difference, or nothing was measured. Impossible readings only
+/// give notes, since a simulation needs none.
 std::optional<double> mean_without_air(SimulatePlan& plan) {
   if (!plan.experiment->is_in_air) return std::nullopt;
   try {
@@ -139,7 +140,7 @@ std::optional<double> mean_without_air(SimulatePlan& plan) {
   }
 }
 
-/// Which program makes the runs.
+/// Chooses the program that makes the runs.
 void choose_simulator(SimulatePlan& plan) {
   try {
     plan.spec.simulator = calibrate::simulator_for(plan.study);
@@ -187,7 +188,7 @@ void build_bench(SimulatePlan& plan) {
 SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   SimulatePlan plan;
   plan.settings = arguments.settings;
-  // The study says the same in [engine]; an option is a setting laid over it.
+  // Corresponds to [engine] in the study; the option overrides it.
   if (!arguments.engine.empty()) {
     plan.settings.push_back(fmt::format("engine.program=\"{}\"", arguments.engine));
   }
@@ -207,7 +208,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   try {
     plan.study = dem::read_study(arguments.study, plan.settings);
     is_read = true;
-    // A simulation needs no readings: they are compared with where there are some.
+    // A simulation needs no readings: they are only for comparison, if there are any.
     const auto sheets = calibrate::read_sheets(plan.study, calibrate::NoRows::allowed);
     for (const calibrate::SheetReadings& sheet : sheets) {
       plan.notes.insert(plan.notes.end(), sheet.notes.begin(), sheet.notes.end());
@@ -222,7 +223,7 @@ SimulatePlan plan_simulate(const SimulateArguments& arguments) {
   check_places(plan);
   if (is_read && experiment != nullptr) check_saved(plan);
   lock_folder(plan);
-  // Another process may have ended meanwhile.
+  // Another process may have finished meanwhile.
   if (plan.lock) check_saved(plan);
   if (plan.errors.empty()) build_bench(plan);
   return plan;

@@ -30,7 +30,7 @@ struct SimulateArguments {
 
 /// A `repose simulate` that can be carried out.
 struct SimulatePlan {
-  dem::Experiment experiment = nullptr;  ///< null: unknown, as `errors` say
+  dem::Experiment experiment = nullptr;  ///< null: unknown, see `errors`
   dem::Study study;
   std::vector<std::string> settings;
   dem::ClumpFile grain;
@@ -41,18 +41,18 @@ struct SimulatePlan {
   std::string json_file;
   std::optional<double> trajectory_s;
   int views = 0;  ///< pictures of each heap
-  /// Of drops read in air: what their mean would be without, as the simulation is.
+  /// For drops measured in air: their mean corrected to no air, as in the simulation.
   std::optional<double> mean_without_air;
 
-  /// On the folder, from before it was looked at until the results are in it.
+  /// On the folder, held from before it is examined until the results are written.
   std::optional<base::FolderLock> lock;
 
   std::vector<std::string> errors;  ///< empty: it can be carried out
-  std::vector<std::string> notes;   ///< for the user to know
+  std::vector<std::string> notes;   ///< for the user
 };
 
-/// Reads and checks all that was typed, the study and the place for the results, then builds the
-/// grain, which may take seconds. All errors at once.
+/// Reads and checks all arguments, the study and the output paths, then builds the grain, which may
+/// take seconds. Reports all errors at once.
 SimulatePlan plan_simulate(const SimulateArguments& arguments);
 
 }  // namespace repose::cli

@@ -25,11 +25,11 @@ constexpr int kNoteIndent = 2;
 constexpr double kMillimetres = 1e3;
 
 std::string text_of(const Json& json) {
-  // Names of files need not be UTF-8, JSON must be.
+  // File names need not be UTF-8, but JSON must be.
   return json.dump(kNoteIndent, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-/// JSON has no NaN: a number that does not exist is null.
+/// JSON has no NaN: missing numbers are null.
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json material_json(const dem::Material& material) {
@@ -52,13 +52,13 @@ Json clump_json(const SimulatePlan& plan) {
           {"size_sd_percent", 100 * plan.spec.model.size_cv}};
 }
 
-/// Null: our own.
+/// Null: our own engine.
 Json engine_json(const calibrate::RunSpec& spec) {
   if (spec.simulator->title().empty()) return nullptr;
   return {{"name", spec.simulator->title()}, {"differences", spec.simulator->differences(spec)}};
 }
 
-/// All that a value belongs to but its seed and time step.
+/// The conditions that a value depends on, except seed and time step.
 void add_context(const SimulatePlan& plan, Json& json) {
   const dem::Model& model = plan.spec.model;
   json["engine"] = engine_json(plan.spec);
@@ -95,7 +95,7 @@ Json object_of(const std::vector<std::pair<std::string, double>>& numbers) {
   return json;
 }
 
-/// A heap's angle from both sources, and each view of it.
+/// A heap's angle from both sources, and each of its views.
 void add_pictures(const calibrate::RunResult& run, Json& json) {
   const auto seen = calibrate::picture_mean(run).angle_deg;
   json["source"] = calibrate::is_from_pictures(run) ? "pictures" : "positions";
@@ -111,7 +111,7 @@ void add_pictures(const calibrate::RunResult& run, Json& json) {
   }
 }
 
-/// The same for all repeats together, and where they were seen from.
+/// The same for all repeats together, and the directions they were seen from.
 void add_sources(const SimulatePlan& plan, const std::vector<calibrate::RunResult>& runs,
                  Json& json) {
   const auto angles = heap_angles(runs);
@@ -215,7 +215,7 @@ std::string cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f}", *value) : kMissing;
 }
 
-/// A heap's angle from its pictures and from where its grains lie.
+/// A heap's angle from its pictures and from the positions of its grains.
 void add_sources_table(const std::vector<calibrate::RunResult>& runs, Page& page) {
   const auto angles = heap_angles(runs);
   if (!angles) return;
@@ -296,7 +296,7 @@ std::string measured_text(const SimulatePlan& plan, const std::vector<calibrate:
   return text;
 }
 
-/// "(20.1 … 23.4)", and of how many repeats where not all have it.
+/// "(20.1 … 23.4)", and the number of repeats if not all have it.
 std::string range_text(const std::vector<double>& values, std::size_t repeats) {
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   std::string text;
@@ -337,7 +337,7 @@ std::string coefficients_text(const dem::PairCoefficients& pair) {
                      pair.restitution, by_speed, pair.sliding_friction, pair.rolling_friction);
 }
 
-/// Coefficients mean nothing without these.
+/// Coefficients are meaningless without these.
 Table belongs_to_table(const SimulatePlan& plan) {
   const dem::Model& model = plan.spec.model;
   const bool is_own = plan.spec.simulator->title().empty();
@@ -407,7 +407,7 @@ std::string simulate_json(const SimulatePlan& plan, const Repeats& repeats) {
     json["repeats"].push_back(run_json(runs[k], repeats.files[k]));
   }
   json["warnings"] = Json::array();
-  // Was said when the run began.
+  // Already printed when the run began.
   if (const std::string shape = dem::warning_of_shape(plan.grain); !shape.empty()) {
     json["warnings"].push_back({{"code", "shape"}, {"seed", nullptr}, {"message", shape}});
   }

@@ -10,8 +10,8 @@ namespace repose::cli {
 /// The result, as a JSON object.
 std::string simulate_json(const SimulatePlan& plan, const Repeats& repeats);
 
-/// For people: each repeat, their mean, the other readings, what the bench gave, and what the
-/// numbers belong to.
+/// For people: each repeat, their mean, the other readings, the bench's result, and the conditions
+/// of the simulation.
 std::string simulate_table(const SimulatePlan& plan, const std::vector<calibrate::RunResult>& runs,
                            int columns);
 

@@ -39,7 +39,8 @@ bool is_there(const fs::path& file) {
   return fs::exists(file, ignored);
 }
 
-/// All that decides over a repeat's bytes but its seed. The study's hash covers the settings.
+/// Everything that determines a repeat's bytes except its seed. The study's hash covers the
+/// settings.
 Json identity_of(const SimulatePlan& plan) {
   return {{"experiment", dem::name_of(plan.experiment)},
           {"study_hash", plan.study.hash},
@@ -47,7 +48,7 @@ Json identity_of(const SimulatePlan& plan) {
           {"simulator_version", calibrate::kSimulatorVersion}};
 }
 
-/// What of two runs differs, for people.
+/// How two runs differ, as text.
 std::string difference(const Json& saved, const Json& asked) {
   const auto differs = [&](const char* key) {
     return saved.value(key, Json()) != asked.value(key, Json());
@@ -62,8 +63,8 @@ std::string difference(const Json& saved, const Json& asked) {
   return "the study, its scan or the --set settings were different";
 }
 
-/// Whether the run that a folder is of left something that another one would mix with: a result,
-/// files named by a seed, or a restart point. Its failures do not: the store tells them apart.
+/// Whether the folder's run left something that would be mixed with another run's: a result, files
+/// named after a seed, or a restart point. Its failures do not count: the store keeps them apart.
 bool holds_results(const fs::path& folder, const Json& saved) {
   const Json named = saved.value("experiment", Json());
   const std::string experiment = named.is_string() ? named.get<std::string>() : std::string();
@@ -77,12 +78,12 @@ bool holds_results(const fs::path& folder, const Json& saved) {
   return calibrate::has_unfinished_runs(folder);
 }
 
-/// "FOLDER/heap_seed_3": what a repeat's files are called, without their endings.
+/// "FOLDER/heap_seed_3": path of a repeat's files, without extension.
 fs::path place_of(const SimulatePlan& plan, std::uint64_t seed) {
   return plan.out_folder / fmt::format("{}_seed_{}", dem::name_of(plan.experiment), seed);
 }
 
-/// Names that this run writes and that are there, in a folder that is none of repose: "a, b".
+/// Files that this run would write and that already exist in a folder that is not repose's: "a, b".
 std::string foreign_files(const SimulatePlan& plan) {
   if (calibrate::is_run_store(plan.out_folder) || is_there(plan.out_folder / "study.json")) {
     return {};
@@ -98,14 +99,13 @@ std::string foreign_files(const SimulatePlan& plan) {
   return fmt::format("{}", fmt::join(foreign, ", "));
 }
 
-/// Says in the folder what its files belong to.
+/// Records in the folder what its files belong to.
 void save_identity(const SimulatePlan& plan) {
   if (plan.out_folder.empty()) return;
   base::write_whole_file(identity_file(plan), identity_of(plan).dump(2) + '\n');
 }
 
-/// Threads that work on one repeat: those that are left over when each has one. What is finished
-/// already needs none.
+/// Threads per repeat: all threads divided among the unfinished repeats.
 int threads_each(const SimulatePlan& plan, const std::optional<calibrate::RunStore>& folder) {
   const auto open = std::count_if(plan.seeds.begin(), plan.seeds.end(), [&](std::uint64_t seed) {
     return !folder || !folder->find(plan.spec, seed);
@@ -118,7 +118,7 @@ class RepeatsProgress {
  public:
   explicit RepeatsProgress(std::size_t repeats) : fractions_(repeats, 0) {}
 
-  /// How far one repeat is, 0 to 1.
+  /// Completed fraction of one repeat, 0 to 1.
   void report(std::size_t repeat, double fraction) {
     if (!line_.is_shown()) return;
     const std::lock_guard lock(mutex_);
@@ -137,14 +137,14 @@ class RepeatsProgress {
   ProgressLine line_;
 };
 
-/// A heap's first view with what was measured drawn in.
+/// A heap's first view with the measurement drawn in.
 void draw_overlay(const RunFiles& files, const calibrate::HeapViewing& viewing) {
   const calibrate::HeapViewSession session(render::scene_of(dem::read_state(files.state)), viewing);
   render::Renderer renderer;
   session.measure(renderer, 0, files.overlay);
 }
 
-/// The front of a draw-down with the slopes that were measured drawn in.
+/// The front of a draw-down with the measured slopes drawn in.
 void draw_front(const RunFiles& files, const dem::BoxesFront& boxes) {
   const calibrate::DrawDownFront front =
       calibrate::draw_down_front(render::scene_of(dem::read_state(files.state)), boxes);
@@ -167,7 +167,7 @@ class Batch {
 
   int runs_at_once() const { return plan_.threads / spec_.model.threads; }
 
-  /// Whatever goes wrong is the repeat's, not the program's.
+  /// Any error belongs to the repeat and does not end the program.
   void run(std::size_t index) {
     if (is_stopping()) return;
     try {
@@ -219,8 +219,8 @@ class Batch {
     done_.try_emplace(seed, std::move(run), std::move(files));
   }
 
-  /// Puts the final state beside the store, where the seed tells whose it is, with a picture of it.
-  /// A run without a reading may have no state.
+  /// Copies the final state next to the store, named after its seed, with a picture of it. A run
+  /// without a reading may have no state.
   RunFiles files_of(const calibrate::RunResult& run, const std::string& place) const {
     RunFiles files{.state = place + ".vtp", .overlay = {}};
     if (!spec_.simulator->has_state(spec_.entry())) return {};

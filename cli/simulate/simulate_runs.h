@@ -9,45 +9,44 @@
 #include "calibrate/experiment/run_result.h"
 #include "cli/simulate/simulate_options.h"
 
-/// The repeats of a `repose simulate`, and what they leave in its --out FOLDER beside the store of
-/// runs (calibrate/experiment/run_store.h): run.json, which says whose the files named after seeds
-/// are, those files, and the result.
+/// The repeats of a `repose simulate`, and what they write to its --out FOLDER besides the run
+/// store (calibrate/experiment/run_store.h): run.json, which identifies the run that files named
+/// after seeds belong to; those files; and the result.
 namespace repose::cli {
 
-/// What of a run was put into the folder; empty: nothing.
+/// Files of a run in the folder; empty: none.
 struct RunFiles {
   std::string state;
-  std::string overlay;  ///< of a heap's first view or a draw-down
+  std::string overlay;  ///< of a heap's first view or of a draw-down
 };
 
 /// A repeat that could not be made.
 struct RepeatError {
   std::uint64_t seed = 0;
   std::string message;
-  bool is_internal = false;  ///< else its input is wrong
+  bool is_internal = false;  ///< otherwise the input is wrong
 };
 
-/// In the order of their seeds.
+/// Results of all repeats, in the order of their seeds.
 struct Repeats {
-  std::vector<calibrate::RunResult> runs;  ///< those that came to an end, also without a reading
-  std::vector<RunFiles> files;             ///< of each of these
-  std::vector<RepeatError> errors;         ///< of others
+  std::vector<calibrate::RunResult> runs;  ///< those that finished, also without a reading
+  std::vector<RunFiles> files;             ///< of each of these runs
+  std::vector<RepeatError> errors;         ///< of the others
 };
 
-/// Runs all repeats that the --out folder does not hold already, several at a time, and puts each
-/// one's state and overlay there under the name of its seed. The first with an error, or an
-/// interruption, stops the others; one without a reading does not.
+/// Runs all repeats not yet in the --out folder, several at a time, and writes each one's state and
+/// overlay there, named after its seed. The first error, or an interruption, stops the others; a
+/// missing reading does not.
 Repeats run_repeats(const SimulatePlan& plan, const std::atomic<bool>& is_interrupted);
 
-/// FOLDER/result.json. In the folder of a study, which has a result of its own,
-/// FOLDER/EXPERIMENT.json.
+/// FOLDER/result.json. In a study's folder, which has its own result: FOLDER/EXPERIMENT.json.
 std::filesystem::path result_file(const SimulatePlan& plan);
 
-/// What is wrong with going on with what the folder holds: files of another run, which would be
-/// mixed with those of this one. Empty: nothing is.
+/// Why the folder cannot be continued: it holds files of another run, which would be mixed with
+/// this one's. Empty: it can.
 std::string error_of_saved(const SimulatePlan& plan);
 
-/// What there is to go on from, and what of it is damaged: a sentence each.
+/// What can be resumed, and which of it is damaged: a sentence each.
 std::vector<std::string> notes_on_saved(const SimulatePlan& plan);
 
 }  // namespace repose::cli

@@ -78,7 +78,7 @@ std::optional<HeapAngles> heap_angles(const std::vector<calibrate::RunResult>& r
   };
   angles.positions = of_all(positions);
   angles.pictures = of_all(pictures);
-  // The reading is of the usual definition.
+  // This reading uses the default definition.
   if (base::is_usual_definition(runs.front().definition)) {
     angles.between_views_positions = mean_of_all(readings_named(runs, "between_views_deg"));
   }
@@ -102,8 +102,8 @@ RunWarning no_scatter(const SimulatePlan& plan, std::size_t repeats) {
   return {"no_scatter", {}, message};
 }
 
-/// The stretch that is fitted matters more than chance does: than the interval of the mean, or for
-/// a single heap, which has none, than its scatter between directions.
+/// The fitted window has more effect than random scatter: than the interval of the mean, or, for a
+/// single heap, than its scatter between directions.
 std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
                                          const std::vector<calibrate::RunResult>& runs) {
   double usual = 0, inner = 0;
@@ -134,7 +134,7 @@ std::optional<RunWarning> window_matters(const calibrate::Summary& summary,
           yardstick)};
 }
 
-/// Repeats whose value is not the angle in their pictures.
+/// Warns of repeats whose value is not the angle in their pictures.
 void add_picture_warnings(const std::vector<calibrate::RunResult>& runs,
                           std::vector<RunWarning>& warnings) {
   if (!runs.empty() && !runs.front().picture_error.empty()) {
@@ -165,7 +165,7 @@ void add_picture_warnings(const std::vector<calibrate::RunResult>& runs,
                    angles->positions->mean)});
 }
 
-/// What the bench's angle may be off by where nobody says how it was measured.
+/// Possible error of the bench's angle if its definition is not stated.
 void add_definition_warning(const SimulatePlan& plan, const std::vector<calibrate::RunResult>& runs,
                             std::vector<RunWarning>& warnings) {
   const dem::StudyExperiment& described = plan.study.experiments.at(plan.experiment);
@@ -188,7 +188,7 @@ void add_definition_warning(const SimulatePlan& plan, const std::vector<calibrat
                    base::kUsualDefinition.name, base::kUsualDefinition.description, others)});
 }
 
-/// Heaps of fewer grains than the study asks for, since no more fit into the tube.
+/// Warns of heaps with fewer grains than requested, since no more fit into the tube.
 void add_grain_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                        std::vector<RunWarning>& warnings) {
   const dem::ExperimentEntry& entry = plan.spec.entry();
@@ -203,7 +203,7 @@ void add_grain_warning(const SimulatePlan& plan, const calibrate::RunResult& run
                    *asked, *grains)});
 }
 
-/// A roll that hopped, or stayed on the incline.
+/// Warns of a roll that hopped, or stayed on the incline.
 void add_roll_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                       std::vector<RunWarning>& warnings) {
   const std::string hops = calibrate::warning_of_hops(
@@ -219,7 +219,7 @@ void add_roll_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                    releases, releases == 1 ? "release" : "releases")});
 }
 
-/// Other programs delete what leaves their box, which is a little larger than the plate.
+/// Other programs delete grains that leave their box, which is slightly larger than the plate.
 void add_lost_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                       std::vector<RunWarning>& warnings) {
   const double off_plate = run.readings.number("grains_off_plate").value_or(0);
@@ -231,7 +231,7 @@ void add_lost_warning(const SimulatePlan& plan, const calibrate::RunResult& run,
                    off_plate, run.readings.at("grains"))});
 }
 
-/// What single repeats tell against their values.
+/// Warnings about the values of single repeats.
 void add_run_warnings(const SimulatePlan& plan, const calibrate::RunResult& run,
                       std::vector<RunWarning>& warnings) {
   const std::uint64_t seed = run.seed;

@@ -8,27 +8,27 @@
 #include "calibrate/statistics/summary.h"
 #include "cli/simulate/simulate_runs.h"
 
-/// What all repeats say together: which number of each is its value, and what tells against it.
+/// Summary of all repeats: which number of each is its value, and warnings about it.
 namespace repose::cli {
 
-/// Where the repeats' values are from: "pictures", "positions", or "mixed" (see
-/// calibrate::is_from_pictures, which each repeat decides on its own).
+/// Source of the repeats' values: "pictures", "positions", or "mixed" (see
+/// calibrate::is_from_pictures, decided for each repeat separately).
 std::string source_of(const std::vector<calibrate::RunResult>& runs);
 
-/// The repeats' values, in their order; none when one of them has none.
+/// The repeats' values, in their order; std::nullopt if any has none.
 std::optional<std::vector<double>> values_of(const std::vector<calibrate::RunResult>& runs);
 
-/// Mean and scatter of the repeats' values; none when one of them has none. Values that are all
-/// the same to the last bit, as where nothing is left to chance, have a mean but no scatter: an
-/// interval of no width would claim what was not found out.
+/// Mean and scatter of the repeats' values; std::nullopt if any has none. Values that are identical
+/// to the last bit, as in deterministic experiments, have a mean but no scatter: an interval of
+/// zero width would claim knowledge that is not there.
 std::optional<calibrate::Summary> summarise(const std::vector<calibrate::RunResult>& runs);
 
-/// The two sources of a heap's angle beside each other, in degrees.
+/// The two sources of a heap's angle side by side, in degrees.
 struct HeapAngles {
-  /// Over repeats; none when one of them has no number.
+  /// Over repeats; std::nullopt if any has no number.
   std::optional<calibrate::Summary> positions;
   std::optional<calibrate::Summary> pictures;  ///< as above
-  /// Standard deviation, mean of the repeats; none when one of them has none.
+  /// Standard deviation, mean of the repeats; std::nullopt if any has none.
   std::optional<double> between_views_positions;
   std::optional<double> between_views_pictures;  ///< as above
   int views = 0;                                 ///< of all repeats together
@@ -37,21 +37,21 @@ struct HeapAngles {
   int pictured = 0;  ///< repeats whose value is from pictures
 };
 
-/// None when a repeat has no value or no pictures were taken.
+/// std::nullopt if a repeat has no value or no pictures were taken.
 std::optional<HeapAngles> heap_angles(const std::vector<calibrate::RunResult>& runs);
 
-/// A reading of the repeats that have it, and only of those.
+/// A reading of those repeats that have it.
 std::vector<double> readings_named(const std::vector<calibrate::RunResult>& runs,
                                    const std::string& name);
 
-/// A value that a person must look at before using it.
+/// A reason for the user to check a value before using it.
 struct RunWarning {
   std::string code;                   ///< fixed word
-  std::optional<std::uint64_t> seed;  ///< none: of all repeats together
+  std::optional<std::uint64_t> seed;  ///< std::nullopt: all repeats together
   std::string message;                ///< sentence
 };
 
-/// What the readings of finished repeats tell against their values.
+/// Warnings about the values of finished repeats, from their readings.
 std::vector<RunWarning> warnings_of(const SimulatePlan& plan,
                                     const std::vector<calibrate::RunResult>& runs);
 

@@ -26,9 +26,9 @@ namespace repose::cli {
 
 namespace {
 
-/// A `repose bench` worked out, but for its output.
+/// An evaluated `repose bench`, before its output.
 struct BenchPlan {
-  calibrate::BenchTest test = nullptr;  ///< null: unknown, as `errors` say
+  calibrate::BenchTest test = nullptr;  ///< null: unknown, see `errors`
   std::vector<calibrate::BenchReading> readings;
   calibrate::BenchResult result;
   std::string json_file;
@@ -37,7 +37,7 @@ struct BenchPlan {
   std::vector<std::string> errors;  ///< empty: it can be carried out
 };
 
-/// Readings from --set, by their names.
+/// Readings from --set, by name.
 using Settings = std::map<std::string, std::vector<double>>;
 
 Settings read_settings(const BenchArguments& arguments, const std::vector<std::string>& names,
@@ -67,7 +67,7 @@ Settings read_settings(const BenchArguments& arguments, const std::vector<std::s
   return settings;
 }
 
-/// Readings without a table: lists of the same length; a single value holds for all.
+/// Readings without a table: lists of the same length; a single value applies to all.
 void add_typed_readings(const Settings& settings, const std::vector<std::string>& names,
                         BenchPlan& plan) {
   std::size_t count = 1;
@@ -105,7 +105,7 @@ void add_typed_readings(const Settings& settings, const std::vector<std::string>
   }
 }
 
-/// What holds for all rows of a table; a list of values cannot.
+/// Values that apply to all rows of a table; lists are not allowed.
 std::map<std::string, double> constants_in(const Settings& settings, const std::string& file,
                                            BenchPlan& plan) {
   std::map<std::string, double> constants;
@@ -135,7 +135,7 @@ void add_table_readings(const std::string& file, const Settings& settings, Bench
   errors.throw_if_any();
 }
 
-/// Also where something else is wrong, to tell impossible readings at the same time.
+/// Evaluates even if there are other errors, to report impossible readings at the same time.
 void evaluate(BenchPlan& plan) {
   if (plan.readings.empty()) return;
   try {
@@ -154,7 +154,7 @@ std::string test_called(const std::string& name) {
   return name;
 }
 
-/// Reads all that was typed and the tables that it names, and evaluates them. All errors at once.
+/// Reads all arguments and the tables they name, and evaluates them. Reports all errors at once.
 BenchPlan plan_bench(const BenchArguments& arguments) {
   BenchPlan plan;
   plan.json_file = arguments.json_file;
@@ -193,7 +193,7 @@ std::vector<std::string> quantity_row(const calibrate::BenchQuantity& quantity) 
                   : kMissing};
 }
 
-/// For people: mean, scatter, interval of each quantity, and what to know about them.
+/// For people: mean, scatter, interval of each quantity, and notes on them.
 std::string bench_table(const std::string& test, const calibrate::BenchResult& result,
                         int columns) {
   Table table({{.heading = ""},
@@ -213,7 +213,7 @@ std::string bench_table(const std::string& test, const calibrate::BenchResult& r
   return page.text();
 }
 
-/// For programs. Numbers that do not exist are null.
+/// For programs. Missing numbers are null.
 std::string bench_json(const std::string& test, const calibrate::BenchResult& result) {
   Json quantities = Json::array();
   for (const calibrate::BenchQuantity& quantity : result.quantities) {

@@ -7,7 +7,7 @@
 
 namespace repose::cli {
 
-/// What `repose bench` is asked to do, as typed.
+/// The arguments of `repose bench`, as typed.
 struct BenchArguments {
   std::string test;
   std::vector<std::string> files;
@@ -15,7 +15,7 @@ struct BenchArguments {
   std::string json_file;
 };
 
-/// Carries out `repose bench`.
+/// Runs `repose bench`.
 ExitCode run_bench(const BenchArguments& arguments);
 
 }  // namespace repose::cli

@@ -27,7 +27,7 @@ namespace {
 
 struct DesignCsvOptions {
   bool with_coded = false;     ///< a column NAME_coded for each factor
-  bool with_standard = false;  ///< the place in standard order, beside the place in the table
+  bool with_standard = false;  ///< the number in standard order, besides that in the table
 };
 
 /// Short, without the rounding of the last bits: 0.3, not 0.30000000000000004.
@@ -36,14 +36,14 @@ std::string level_text(double level) {
   return text == "-0" ? "0" : text;
 }
 
-/// What is nothing but rounding beside the factor's range is 0.
+/// Values that are only rounding errors relative to the factor's range become 0.
 double without_rounding(double natural, const calibrate::Factor& factor) {
   constexpr double kRounding = 1e-14;
   const double size = std::abs(factor.low) + std::abs(factor.high);
   return std::abs(natural) < kRounding * size ? 0 : natural;
 }
 
-/// A row for each run: its number, its kind of point, each factor's natural level.
+/// A row for each run: its number, type of point, and each factor's natural level.
 std::string design_csv(const calibrate::Design& design, const DesignCsvOptions& options) {
   std::vector<std::string> header = {"run"};
   if (options.with_standard) header.emplace_back("standard");
@@ -74,7 +74,7 @@ std::string design_csv(const calibrate::Design& design, const DesignCsvOptions& 
 struct DesignPlan {
   calibrate::Design design;
   DesignCsvOptions csv;
-  std::string out_file;  ///< - without --out
+  std::string out_file;  ///< "-" without --out
 
   std::vector<std::string> notes;
   std::vector<std::string> errors;  ///< empty: it can be carried out
@@ -103,7 +103,7 @@ const std::array<Kind, 5> kKinds = {{
      {"--start", "--step", "--runs", "--fit", "--response", "--factor", "--stride", "--descend"}},
 }};
 
-/// The options that were typed, of those that not every kind has.
+/// The typed options, among those that not every kind has.
 std::vector<std::string_view> typed_options(const DesignArguments& given) {
   const std::vector<std::pair<std::string_view, bool>> typed = {
       {"--factor", !given.factors.empty()},
@@ -139,7 +139,7 @@ void check_kind(const DesignArguments& arguments, DesignPlan& plan) {
   }
 }
 
-/// From a few to a million: what a design can be made of is decided where it is made.
+/// Up to a million, of either sign: the design itself checks which numbers are valid.
 int count_or(int otherwise, const char* option, const std::string& text, DesignPlan& plan) {
   constexpr int kMax = 1'000'000;
   return read_whole_number({option, text, plan.errors}, -kMax, kMax, fmt::format("{} 3", option))
@@ -292,7 +292,7 @@ void note_negative_levels(DesignPlan& plan) {
   }
 }
 
-/// Reads and checks all that was typed, and makes the design. All errors at once.
+/// Reads and checks all arguments, and makes the design. Reports all errors at once.
 DesignPlan plan_design(const DesignArguments& arguments) {
   DesignPlan plan;
   plan.out_file = arguments.out_file.empty() ? std::string(kStandardOutput) : arguments.out_file;

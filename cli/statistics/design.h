@@ -7,7 +7,7 @@
 
 namespace repose::cli {
 
-/// What `repose design` is asked to do, as typed.
+/// The arguments of `repose design`, as typed.
 struct DesignArguments {
   std::string kind;
   std::vector<std::string> factors;  ///< NAME=MIN:MAX
@@ -28,7 +28,7 @@ struct DesignArguments {
   std::string out_file;
 };
 
-/// Carries out `repose design`.
+/// Runs `repose design`.
 ExitCode run_design(const DesignArguments& arguments);
 
 }  // namespace repose::cli

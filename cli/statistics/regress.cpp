@@ -27,7 +27,7 @@ namespace repose::cli {
 
 namespace {
 
-/// A `repose regress` worked out, but for its output.
+/// An evaluated `repose regress`, before its output.
 struct RegressPlan {
   calibrate::SurfaceModel model = calibrate::SurfaceModel::quadratic;
   std::optional<calibrate::WantedValue> target;
@@ -83,7 +83,7 @@ std::optional<calibrate::WantedValue> read_target(const std::string& text,
   return std::nullopt;
 }
 
-/// Reads all that was typed and the table that it names, and fits the surface. All errors at once.
+/// Reads all arguments and the table they name, and fits the surface. Reports all errors at once.
 RegressPlan plan_regress(const RegressArguments& arguments) {
   RegressPlan plan;
   plan.json_file = arguments.json_file;
@@ -157,7 +157,7 @@ void add_left_out(const std::vector<calibrate::LeftOut>& left_out, Page& page) {
   for (const auto& [what, why] : left_out) page.add(fmt::format("not used: {} ({})", what, why));
 }
 
-/// How far each block lies from the mean of all, which the surface is of.
+/// Deviation of each block from the mean of all blocks, which the surface describes.
 void add_blocks(const calibrate::Regression& fit, Table& table) {
   for (const calibrate::BlockEffect& effect : fit.blocks->effects) {
     const double half_width = fit.student_t * effect.standard_error;
@@ -191,7 +191,7 @@ void add_coefficients(const calibrate::Regression& fit, Page& page) {
   page.add(table);
 }
 
-/// The surface of the factors in their own units; nothing where these are the coded ones.
+/// The surface in the factors' own units; nothing if these are the coded ones.
 void add_equation(const calibrate::Regression& fit, Page& page) {
   const bool is_coded = std::all_of(
       fit.factors.begin(), fit.factors.end(),
@@ -249,12 +249,12 @@ std::string point_text(const calibrate::Regression& fit, const calibrate::Surfac
                      levels_text(fit, point.natural));
 }
 
-/// Of an interval; empty where no run is beyond it.
+/// The end of an interval; std::nullopt: beyond the runs.
 std::string end_text(const std::optional<double>& end) {
   return end ? fmt::format("{:.4g}", *end) : "beyond the runs";
 }
 
-/// What a factor may be; an end is empty where the runs end first.
+/// The range of a factor; an end is std::nullopt if the runs end first.
 std::string range_text(const std::array<std::optional<double>, 2>& range) {
   const auto& [low, high] = range;
   if (low && high) return fmt::format("{:.4g} … {:.4g}", *low, *high);
@@ -335,8 +335,8 @@ void add_target(const calibrate::SurfaceReport& report, Page& page) {
   }
 }
 
-/// For people: coefficients, analysis of variance, shape, extremes, target, warnings, and
-/// what of the table was not used.
+/// For people: coefficients, analysis of variance, shape, extremes, target, warnings, and unused
+/// parts of the table.
 std::string regress_table(const RegressPlan& plan, int columns) {
   const calibrate::SurfaceReport& report = plan.report;
   Page page(columns);

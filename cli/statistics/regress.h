@@ -7,7 +7,7 @@
 
 namespace repose::cli {
 
-/// What `repose regress` is asked to do, as typed.
+/// The arguments of `repose regress`, as typed.
 struct RegressArguments {
   std::string table;
   std::string response;
@@ -19,7 +19,7 @@ struct RegressArguments {
   std::string json_file;
 };
 
-/// Carries out `repose regress`.
+/// Runs `repose regress`.
 ExitCode run_regress(const RegressArguments& arguments);
 
 }  // namespace repose::cli

@@ -19,7 +19,7 @@ namespace repose::cli {
 
 namespace {
 
-/// What a column of a table may be called without quotes, and a factor in a model's terms.
+/// Whether a name is valid as a table column without quotes, and as a factor in a model's terms.
 bool is_plain_name(std::string_view name) {
   return !name.empty() && name.find_first_of(" ,;:\"\t\r\n*^") == std::string_view::npos;
 }
@@ -90,7 +90,7 @@ Examples:
   repose bench rolling rolls.csv --set diameter_mm=20
 )";
 
-/// The tests of experiments, and what else an experiment is called here.
+/// The tests of experiments, and alternative names of experiments.
 std::string experiment_tests() {
   std::string lines, names;
   for (const dem::ExperimentEntry& entry : dem::all_experiments()) {

@@ -10,11 +10,11 @@
 
 namespace repose::cli {
 
-/// "NAME=MIN:MAX"; an error when it is not.
+/// Parses "NAME=MIN:MAX"; adds an error if invalid.
 std::optional<calibrate::Factor> factor_in(const std::string& option, const std::string& text,
                                            std::vector<std::string>& errors);
 
-/// "NAME=NUMBER"; an error when it is not.
+/// Parses "NAME=NUMBER"; adds an error if invalid.
 std::optional<std::pair<std::string, double>> named_number_in(const std::string& option,
                                                               const std::string& text,
                                                               std::vector<std::string>& errors);

@@ -22,7 +22,7 @@ namespace repose::cli {
 
 namespace {
 
-/// As typed.
+/// The arguments as typed.
 struct StudioArguments {
   std::string folder = ".";
   std::string port;
@@ -34,7 +34,7 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != 0;
 }
 
-/// What opens an address on this desktop; empty: there is none. Under WSL that is Windows.
+/// The command that opens an address on this desktop; empty: none. Under WSL it opens in Windows.
 std::vector<std::string> opener() {
   if (is_set("WSL_DISTRO_NAME")) {
     return {"powershell.exe", "-NoProfile", "-Command", "Start-Process"};
@@ -43,7 +43,7 @@ std::vector<std::string> opener() {
   return {};
 }
 
-/// The address is printed, too: where no browser opens, nothing is lost.
+/// The address is printed as well, in case no browser opens.
 void open_browser(const std::string& address) {
   std::vector<std::string> words = opener();
   if (words.empty()) return;
@@ -51,7 +51,7 @@ void open_browser(const std::string& address) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  // What browsers say of themselves is no concern of the user's.
+  // Hide the browser's own messages.
   posix_spawn_file_actions_t quiet;
   posix_spawn_file_actions_init(&quiet);
   posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", 1, 0);

@@ -56,7 +56,7 @@ void print_errors(const std::vector<TrackedFilm>& films) {
   }
 }
 
-/// Of films that are copies of an earlier one.
+/// Marks films that are duplicates of an earlier one.
 void name_copies(std::vector<TrackedFilm>& films) {
   std::vector<std::filesystem::path> files;
   for (const TrackedFilm& film : films) files.emplace_back(film.file);
@@ -112,7 +112,7 @@ ExitCode run_track(const TrackArguments& arguments) {
 
 namespace {
 
-/// What one experiment has and others do not.
+/// Options specific to one experiment.
 void read_own_options(const TrackArguments& arguments, TrackPlan& plan) {
   constexpr double kShortest_mm = 1, kLongest_mm = 10000;  // of inclines that can be filmed
   plan.released_mm =

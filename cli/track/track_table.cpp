@@ -13,7 +13,7 @@ namespace repose::cli {
 namespace {
 
 std::string cell(const vision::Estimate& estimate, int decimals) {
-  // Of what is smaller than it usually is, a digit must be left.
+  // Values smaller than usual still need a significant digit.
   while (decimals < 6 && std::abs(estimate.value) < 5 * std::pow(10, -decimals)) ++decimals;
   return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, estimate.uncertainty, decimals);
 }
@@ -29,7 +29,7 @@ std::string scale_text(const vision::DropTrack& drop) {
                      drop.gravity_m_s2->uncertainty);
 }
 
-/// Why there is no number, and what to know.
+/// Why there is no number, and notes.
 void add_notes(Table& table, const TrackedFilm& film) {
   if (film.error.empty() && status_of(film) == vision::MeasureStatus::refused) {
     table.add_note(fmt::format("{}refused: ", kNoteIndent), reason_of(film));
@@ -114,7 +114,7 @@ void add_film(Table& table, const TrackedFilm& film, bool has_colour) {
   }
 }
 
-/// What the mean of several films is taken of.
+/// The value averaged over several films.
 double value_of(const TrackedFilm& film) {
   switch (film.filmed) {
     case vision::Filmed::drop:

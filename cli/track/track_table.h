@@ -8,8 +8,8 @@
 
 namespace repose::cli {
 
-/// The films' bounces, rolls or tilts as a table, what is to be known of each film, and the mean of
-/// first bounces, rolls or tilts.
+/// The films' bounces, rolls or tilts as a table, notes on each film, and the mean of first
+/// bounces, rolls or tilts.
 std::string track_table(const std::vector<TrackedFilm>& films, vision::Filmed filmed, int columns,
                         bool has_colour);
 

@@ -22,7 +22,7 @@ namespace {
 
 using Results = std::vector<dem::CaseResult>;
 
-/// What another program made of the cases, as ours are listed: found by case and number.
+/// Another program's results of the cases, looked up by case and number.
 class PeerResults {
  public:
   PeerResults() = default;
@@ -33,7 +33,7 @@ class PeerResults {
   const std::string& title() const { return title_; }
   const std::vector<dem::PeerCase>& cases() const { return cases_; }
 
-  /// The same number of theirs, or none.
+  /// The corresponding result of theirs, or null.
   const dem::CaseResult* of(const dem::CaseResult& ours) const {
     for (const dem::PeerCase& each : cases_) {
       if (each.name != ours.name) continue;
@@ -86,7 +86,7 @@ std::string verify_table(const Results& results, int columns) {
                                            count_holding(results), results.size());
 }
 
-/// The same of two programs. The other one's numbers are not judged: its laws may be others.
+/// The same for two programs. The other one's numbers are not judged, as its laws may differ.
 std::string comparison_table(const Results& results, const PeerResults& peer, int columns) {
   Table table({{.heading = "case, quantity"},
                number_column("expected"),
@@ -160,7 +160,7 @@ std::string verify_json(const Results& results, const PeerResults& peer) {
   return json.dump(kNoteIndent) + '\n';
 }
 
-/// Runs them there, in sight of people.
+/// Runs the cases there, showing progress.
 PeerResults results_in(const std::string& program) {
   const auto peer = calibrate::case_peer_of(program);
   Progress progress(dem::case_names().size(), "run by the other program");

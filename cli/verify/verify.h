@@ -7,13 +7,13 @@
 
 namespace repose::cli {
 
-/// What `repose verify` is asked to do, as typed.
+/// The arguments of `repose verify`, as typed.
 struct VerifyArguments {
   std::string json_file;
-  std::string engine;  ///< another program beside ours; empty: none
+  std::string engine;  ///< another program to run besides ours; empty: none
 };
 
-/// Carries out `repose verify`: internal_error when some number is out of tolerance.
+/// Runs `repose verify`: internal_error if any number is out of tolerance.
 ExitCode run_verify(const VerifyArguments& arguments);
 
 Command verify_command();
