@@ -25,7 +25,7 @@ using ::testing::Not;
 
 class BenchAir : public ::testing::Test {
  protected:
-  /// Balls of 20 mm and 1000 kg/m3 after a fall of 100 mm, with another density.
+  /// Balls of 20 mm dropped from 100 mm: the study of 1000 kg/m3, with another density.
   dem::Study study(const std::string& measured, double density = 20) const {
     std::string text = test::kSphereStudy;
     const std::string was = "{ mean = 25, sd = 1, n = 5 }";
@@ -103,7 +103,7 @@ TEST_F(BenchAir, IsSaidAndCountsInTheUncertaintyOfTheMean) {
               std::hypot(*drop.sd / std::sqrt(5), drop.systematic_sd), 1e-12);
 }
 
-// d rise / d read by hand: a ruler's error is raised with the heights that were read on it.
+// d rise / d read by finite differences: correcting the heights scales the ruler's error with them.
 TEST_F(BenchAir, WhatReadingsShareIsRaisedWithThem) {
   const dem::Measured low = drops(study("{ mean = 24.9, bias_sd = 0.4 }"));
   const dem::Measured high = drops(study("{ mean = 25.1, bias_sd = 0.4 }"));

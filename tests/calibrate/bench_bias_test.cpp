@@ -1,4 +1,4 @@
-// bias_sd: what all readings of a bench share.
+// bias_sd: the error common to all readings of a measurement.
 
 #include <cmath>
 #include <string>
@@ -41,7 +41,7 @@ struct BenchBias : ::testing::Test {
   TemporaryFolder folder_;
 };
 
-// JCGM 100:2008 (GUM), 5.1.2: in quadrature; what is common to all is not divided by their number.
+// JCGM 100:2008 (GUM), 5.1.2: in quadrature; a common error is not divided by their number.
 TEST_F(BenchBias, IsAddedUndividedHoweverManyReadingsThereAre) {
   const Observable few = tilt("{ mean = 23.4, sd = 1.2, n = 4, bias_sd = 0.3 }");
   const Observable many = tilt("{ mean = 23.4, sd = 1.2, n = 1000000, bias_sd = 0.3 }");

@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// The row that a film of a drop gives.
+/// The row that the video of a drop gives.
 FilmReading reading_of(double drop_mm, double rebound_mm, double uncertainty_mm) {
   FilmReading film{
       .experiment = "drop", .file = "a.mp4", .status = "ok", .value = {}, .reason = {}};
@@ -31,7 +31,7 @@ FilmReading reading_of(double drop_mm, double rebound_mm, double uncertainty_mm)
   return film;
 }
 
-/// A drop as the fit sees it after these films.
+/// The drop's observable, as the fit sees it, after these videos.
 Observable drop_after(const std::vector<FilmReading>& films) {
   const TemporaryFolder folder;
   std::string text = test::kSphereStudy;
@@ -76,7 +76,7 @@ TEST(BenchFilms, ThatAgreeByChanceAreNoSurerThanEachIs) {
   EXPECT_NEAR(*drop.sd, 1, 1e-9);
 }
 
-// All see the fall by .8 % too long: so may the rebounds be, however many there are.
+// All videos show a fall .8 % too long, so the rebounds may be too, however many there are.
 TEST(BenchFilms, WhatFilmsShareIsToldByTheFallThatTheyShow) {
   const std::vector<FilmReading> films = {reading_of(100.9, 30, .1), reading_of(100.7, 36, .1),
                                           reading_of(100.8, 42, .1)};

@@ -43,7 +43,7 @@ TEST(BenchFormulas, HazelnutStudysMeansGiveItsCoefficients) {
 }
 
 TEST(BenchFormulas, AgreeWithClosedForms) {
-  // A ball that keeps the share e of its speed rises to e^2 H.
+  // A ball that keeps the fraction e of its speed rises to e^2 H.
   EXPECT_DOUBLE_EQ(restitution_of(2, .81 * 2), .9);
   EXPECT_DOUBLE_EQ(restitution_of(1, 0), 0);
   EXPECT_NEAR(sliding_friction_of(45 * kRad), 1, 1e-15);
@@ -53,8 +53,8 @@ TEST(BenchFormulas, AgreeWithClosedForms) {
   // Stopping at the foot: mu = tan(b).
   EXPECT_NEAR(rolling_friction_of(b, s, 0), std::tan(b), 1e-15);
   EXPECT_DOUBLE_EQ(density_of(.003, 3e-6), 1000);
-  // A bar of 1 cm2, 10 cm long, 210 GPa, under 2100 N gets 10 um shorter and 3 um of 1 cm wider by
-  // nu = .3.
+  // A bar of 1 cm2, 10 cm long, of 210 GPa, shortens by 10 um under 2100 N, and its 1 cm of width
+  // grows by 3 um with nu = .3.
   EXPECT_NEAR(young_modulus_of(2100, 1e-4, 1e-5, .1), 2.1e11, 1);
   EXPECT_NEAR(poisson_ratio_of(.3e-6, .01, 1e-5, .1), .3, 1e-12);
   EXPECT_DOUBLE_EQ(geometric_mean_diameter_of(4, 2, 1), 2);
@@ -62,7 +62,7 @@ TEST(BenchFormulas, AgreeWithClosedForms) {
   EXPECT_DOUBLE_EQ(sphericity_of(3, 3, 3), 1);
 }
 
-// Simulated with the engine: a ball of R = 10 mm rolls down 20 degrees from S = 150 mm (restitution
+// Simulated by the engine: a ball of R = 10 mm rolls down 20 degrees from S = 150 mm (restitution
 // .01, sliding friction 1).
 TEST(BenchFormulas, RollingFrictionWithTheFootIsThatOfTheSimulation) {
   for (const auto& [mu, stopped_mm] :
@@ -81,7 +81,7 @@ TEST(BenchFormulas, RollingFrictionWithTheFootIsTheInverseOfTheDistance) {
       EXPECT_NEAR(rolling_friction_of(incline * kRad, .3, stopped, .004), mu, 1e-9 * mu) << incline;
     }
   }
-  // A gentle slope takes nothing: only where the ball touches is left.
+  // The foot of a gentle slope takes no speed: only the offset of the contact point is left.
   const double mu = .001, b = .5 * kRad;
   EXPECT_NEAR(rolled_distance_m(mu, b, .3, 1e-6), .3 * (std::sin(b) - mu * std::cos(b)) / mu,
               1e-3 * .3);
@@ -104,7 +104,7 @@ TEST(Bench, ADiameterTakesOutTheFoot) {
                     HasSubstr("176.3 mm from the foot")));
 }
 
-/// As in simulations of it, Roll.AGrainThatStaysOnTheIncline*.
+/// As in simulations: Roll.AGrainThatStaysOnTheIncline*.
 TEST(Bench, AGrainThatStaysOnTheInclineCountsAsZero) {
   std::vector<BenchReading> rows = readings({{20, 150, 782.4}, {20, 150, 0}});
   const double tangent = std::tan(20 * kRad);
@@ -171,9 +171,9 @@ TEST(Bench, ReadingsAreInTheUnitsOfTheirNames) {
   EXPECT_NEAR(value(bench_test_named("fill"), {1530}), 1530, 1e-12);
   EXPECT_NEAR(value(bench_test_named("draw_down"), {71.5}), 71.5, 1e-12);
   EXPECT_NEAR(value(bench_test_named("pendulum"), {30, 30}), 1, 1e-12);
-  // e = .5: three quarters of the speed, and of the sine of half the angle.
+  // e = .5: the struck ball takes three quarters of the speed, and of the sine of half the angle.
   EXPECT_NEAR(value(bench_test_named("pendulum"), {60, 44.0486256}), .5, 1e-7);
-  // 1000 N on a spot of 4 mm, a tenth of the height.
+  // 1000 N on a contact spot of 4 mm, compressed by a tenth of its height.
   EXPECT_NEAR(value(bench_test_named("young"), {1000, 4, 18, 1.8}),
               1000 / (4e-6 * std::numbers::pi) / .1, 1);
   EXPECT_NEAR(value(bench_test_named("poisson"), {18, 2, 17, .38 * 2. / 18 * 17}), .38, 1e-12);

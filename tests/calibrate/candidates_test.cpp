@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 constexpr int kHeapReadings = 10;
 constexpr int kHeapRuns = 41;
 
-/// One observable, whose mean is met up to what chance does in `chance` of all cases.
+/// One observable; `chance` is the p-value of the agreement of its mean.
 JointResult joint_with(double chance, double bench_sd, double simulated_sd) {
   JointResult joint = std::get<JointResult>(test::joint_result().found);
   joint.observables.resize(1);
@@ -37,7 +37,7 @@ Candidate candidate(const std::string& name, double means, double scatter) {
   return {.name = name, .means = means, .scatter = scatter, .values = {}};
 }
 
-// n readings of sd s and a common error u: the mean is known to sqrt(s^2 / n + u^2).
+// n readings of sd s with a common error u: the uncertainty of the mean is sqrt(s^2 / n + u^2).
 TEST(BenchReadings, AreCountedBesideWhatTheyHaveInCommon) {
   ResultObservable observable;
   observable.measured_sd = 3;
@@ -59,7 +59,7 @@ TEST(Candidates, ScatterThatTheBenchDoesNotHaveIsCountedAsBartlettDoes) {
   // 9 and 40 degrees of freedom, variances 1 and 4: 49 ln(169 / 49) - 40 ln 4.
   EXPECT_NEAR(candidate_of("model", joint_with(1, 1, 2)).scatter,
               49 * std::log(169. / 49) - 40 * std::log(4.), 1e-9);
-  // Of larger grains nobody asked what their heaps scatter by.
+  // The scatter of coarse runs (larger grains) is not compared.
   JointResult mixed = joint_with(1, 1, 2);
   mixed.surrogates.front().runs += 70;
   mixed.surrogates.front().coarse = CoarseQuality{.size = 2, .runs = 70};

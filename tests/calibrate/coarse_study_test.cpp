@@ -1,4 +1,4 @@
-// Which experiments of a study have coarse runs, what these simulate, and what is told of them.
+// Which experiments of a study have coarse runs, what these simulate, and what is said about them.
 
 #include <atomic>
 #include <cmath>
@@ -44,7 +44,7 @@ class CoarseStudy : public ::testing::Test {
     record.study =
         dem::read_study(folder_.write("study.toml", test::kSphereStudy + heap),
                         {fmt::format("particle.size_mm = [{0}, {0}, {0}]", size_mm), setting,
-                         // Rough enough to stand.
+                         // Rough enough to form a heap.
                          "contact.particle_wall.rolling_friction = 0.2",
                          "contact.particle_particle.sliding_friction = 0.8",
                          "contact.particle_particle.rolling_friction = 0.3"});
@@ -142,7 +142,7 @@ TEST_F(CoarseStudy, TheFolderTellsMixedRunsFromFullOnes) {
   EXPECT_FALSE(read_study_record(kept).budget.is_full);
   write_study_record(kept, full);
   EXPECT_TRUE(read_study_record(kept).budget.is_full);
-  // Where nothing can be coarse there is nothing to tell.
+  // Without any coarse runs, the setting makes no difference.
   StudyRecord few = record(8);
   const StudyIdentity mixed = identity_of(few);
   few.budget.is_full = true;
@@ -177,7 +177,7 @@ TEST_F(CoarseStudy, DearChecksAreFewerAndOthersAsAsked) {
   EXPECT_EQ(fewer.round_repeats, 2);
   EXPECT_EQ(fewer.check_rounds, 2);
   EXPECT_EQ(fewer.family_sets, 0);
-  // A little less time does not change how it goes.
+  // If full runs are only a little too expensive, only their number of repeats is reduced.
   for (Experiment& experiment : dear.experiments) {
     if (experiment.coarse) experiment.run_s = dear.settings.budget_s / 40;
   }

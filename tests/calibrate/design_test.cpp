@@ -24,7 +24,7 @@ std::vector<Factor> factors(int count) {
   return factors;
 }
 
-/// Mean over the runs of the product of powers of the factors.
+/// Mean over the runs of the product of the factors' powers.
 double moment(const Design& design, const std::vector<int>& powers) {
   double sum = 0;
   for (const DesignRun& run : design.runs) {
@@ -150,14 +150,14 @@ TEST(LatinHypercube, IsTheSameForTheSameSeedOnly) {
   };
   EXPECT_EQ(coded(1), coded(1));
   EXPECT_NE(coded(1), coded(2));
-  // Written down: these must never change, on no machine.
+  // Hard-coded: these must never change, on any machine.
   const auto first = coded(1).front();
   const double expected[] = {-3, 1, 11};
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(first[i], expected[i] / 12, 1e-15);
 }
 
 TEST(LatinHypercube, ItsPointsKeepTheirDistance) {
-  // 25 points in the square: a lattice's are .4 sqrt(2) apart at best; random hypercubes come
+  // 25 points in the square: at best a lattice's are .4 sqrt(2) apart; random hypercubes come
   // within .12 to .2 of each other.
   for (const std::uint64_t seed : {1, 2, 3}) {
     EXPECT_GT(closest_pair(latin_hypercube(factors(2), 25, seed)), .33);
@@ -198,7 +198,7 @@ TEST(LineOfRuns, GoesDownAndLeavesFactorsAlone) {
   EXPECT_DOUBLE_EQ(design.factors[1].natural(design.runs[2].coded[1]), 7);
 }
 
-/// A plane on the corners of a square of natural levels.
+/// A plane through the corners of a square in natural levels.
 Regression plane(double slope_a, double slope_b) {
   RunTable table;
   table.name = "plane";
@@ -219,8 +219,8 @@ TEST(SteepestAscent, GoesInProportionToTheSlopes) {
   };
   EXPECT_NEAR(level(0, 0), 1, 1e-12);
   EXPECT_NEAR(level(0, 1), 20, 1e-12);
-  EXPECT_NEAR(level(1, 0), 1.5, 1e-12);   // half of the half range
-  EXPECT_NEAR(level(1, 1), 17.5, 1e-12);  // half as steep, the other way
+  EXPECT_NEAR(level(1, 0), 1.5, 1e-12);   // half of the half-range
+  EXPECT_NEAR(level(1, 1), 17.5, 1e-12);  // half as steep, in the other direction
   EXPECT_NEAR(level(2, 0), 2, 1e-12);
   const Design down = steepest_ascent(plane(4, -2), 3, .5, true);
   EXPECT_NEAR(down.factors[0].natural(down.runs[1].coded[0]), .5, 1e-12);

@@ -18,7 +18,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// Balls of 4 mm whose tops lie on a line over a floor.
+/// Balls of 4 mm whose tops follow a line above a floor.
 void add_under(render::Scene& scene, double floor_m, double from_m, double to_m,
                const std::function<double(double)>& height_m) {
   constexpr double kRadius = .002;
@@ -123,10 +123,10 @@ TEST(DrawDownFront, SteepSlopesHaveAnAngleToo) {
 constexpr dem::DrawDownProtocol kBoxes{
     .length_m = .44, .depth_m = .08, .slot_m = .11, .fill_m = .08, .drop_m = .14};
 
-/// About as many lie side by side on a side of the slot.
+/// About this many grains lie side by side on each side of the slot.
 constexpr int kSlopeGrains = 7;
 
-/// Balls of 20 mm, soft so that the run is short.
+/// Balls of 20 mm, soft to keep the run short.
 dem::Repeat simulated(int seed) {
   dem::Model model = dem::test::sphere_bench();
   model.grain = dem::sphere_shape(.01);
@@ -135,7 +135,7 @@ dem::Repeat simulated(int seed) {
   return dem::run_draw_down(model, kBoxes, seed);
 }
 
-/// A silhouette of some of the grains.
+/// A silhouette of the selected grains.
 vision::Picture drawn(const dem::Simulation& simulation,
                       const std::function<bool(const dem::Vector&)>& is_shown) {
   render::Scene scene = render::scene_of(simulation);
@@ -145,7 +145,7 @@ vision::Picture drawn(const dem::Simulation& simulation,
   return HeapViewSession(std::move(scene), {.views = 1}).take(renderer, 0).picture;
 }
 
-/// The part of a slope's picture that ends a grain before its side wall, so that the wall is no
+/// The picture of a slope up to one grain before its side wall, so that the wall is not taken for a
 /// flank.
 vision::Picture up_to_the_wall(const vision::Picture& picture, bool is_left) {
   int first = picture.width, last = 0;
@@ -167,7 +167,7 @@ struct Measured {
   std::optional<double> upper_left_rad, upper_right_rad;
 };
 
-/// As in photographs of the heap and of each slope.
+/// As measured in photographs of the heap and of each slope.
 Measured measured(const dem::Simulation& simulation) {
   const auto upper = [&](bool is_left) {
     const vision::Picture picture = drawn(simulation, [is_left](const dem::Vector& place) {
@@ -180,7 +180,7 @@ Measured measured(const dem::Simulation& simulation) {
   return {vision::measure_repose_angle(heap).angle_rad, upper(true), upper(false)};
 }
 
-// Some slopes of so few grains are round, and refused in pictures.
+// With so few grains, some slopes are round and rejected in pictures.
 TEST(DrawDownFront, PhotographsOfTheHeapAndTheSlopesShowTheSame) {
   for (int seed = 1; seed <= 12; ++seed) {
     const dem::Repeat repeat = simulated(seed);

@@ -13,7 +13,7 @@
 #include "calibrate/result/result.h"
 #include "tests/support/temporary_folder.h"
 
-// A study whose runs a short script makes.
+// A study whose runs are made by a short script.
 namespace repose::calibrate::test {
 
 inline constexpr const char* kStudy =
@@ -31,12 +31,12 @@ inline constexpr const char* kRead =
     "number() { sed -n \"s/^ *\\\"$1\\\": \\([-0-9.e]*\\),*$/\\1/p\" \"$folder/run.json\"; }\n"
     "friction=$(number friction); seed=$(number seed)\n";
 
-/// The angle follows a formula, with something that looks like chance.
+/// The angle follows a formula, with something that looks like random scatter.
 inline constexpr const char* kAngle =
     "angle=$(awk -v f=$friction -v s=$seed 'BEGIN { print 8 + 40 * f + .5 * sin(37 * s) }')\n";
 inline constexpr const char* kWrite = "echo \"{\\\"aor\\\": $angle}\" > \"$folder/reading.json\"\n";
 
-/// A folder whose name a shell would take apart.
+/// A folder whose name a shell would split or expand if unquoted.
 class EngineCommandTest : public ::testing::Test {
  protected:
   EngineCommandTest() {
@@ -63,7 +63,7 @@ class EngineCommandTest : public ::testing::Test {
   }
   static EngineFacts facts(const StudyResult& of) { return of.provenance.table->engine.value(); }
 
-  /// The row of a run.
+  /// The row of a run in the table; empty if there is none.
   std::string row(const std::string& run, const std::string& out = "out") const {
     const std::string table = text(out + "/runs/runs.csv");
     const std::size_t start = table.find(run + ',');

@@ -1,4 +1,4 @@
-// What becomes of one run that a command makes.
+// Possible outcomes of one run made by a command.
 #include <filesystem>
 #include <string>
 
@@ -24,7 +24,7 @@ using ::testing::ThrowsMessage;
 
 class OneRunTest : public test::EngineCommandTest {
  protected:
-  /// Why it failed; empty: it did not.
+  /// The reason for the failure; empty if the run succeeded.
   std::string failure(const std::string& text) {
     script(text);
     return failure();

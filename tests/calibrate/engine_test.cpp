@@ -1,4 +1,4 @@
-// Studies whose runs a command makes.
+// Studies whose runs are made by a command.
 #include "calibrate/engine/engine.h"
 
 #include <atomic>
@@ -52,7 +52,7 @@ TEST_F(EngineStudyTest, MakesRunsUntilNothingWouldNarrow) {
   EXPECT_FALSE(fs::exists(place_ / "reading.json"));
 }
 
-/// What is measured where the angle is off by `shift` in the runs that check the fit.
+/// A script whose angle is off by `shift` in the runs that check the fit.
 std::string off_in_checks(const char* shift) {
   return fmt::format(
       "{}[ $seed -gt 1000000000 ] && angle=$(awk -v a=$angle 'BEGIN {{ print a + {} }}')\n{}",
@@ -163,7 +163,7 @@ TEST_F(EngineStudyTest, GoesOnWhereItWasInterrupted) {
     EXPECT_EQ(ended, after);
   }
   EXPECT_GT(forecast_of(request("parts")).run_s.value_or(0), 0);
-  // A program that failed from here on would show which runs are made again.
+  // The first four runs would now fail if they were repeated.
   script(fmt::format("{}case $folder in *run_00[1-4]) exit 5;; esac\n{}", kAngle, kWrite));
   const StudyResult result = calibrated(request("parts"));
   EXPECT_EQ(text("parts/runs/runs.csv"), text("out/runs/runs.csv"));
@@ -188,7 +188,7 @@ TEST_F(EngineStudyTest, StopsWhereNoneOfTheFirstRunsGivesAReading) {
                                                     HasSubstr("exit code 4"),
                                                     HasSubstr("licence server not found"))));
   EXPECT_FALSE(fs::exists(place_ / "out/runs/run_004"));
-  // Once that is mended these runs are made again.
+  // Once that is fixed, these runs are repeated.
   script(std::string(kAngle) + kWrite);
   EXPECT_EQ(facts(calibrated(request())).failed, 0);
 }
@@ -213,7 +213,7 @@ TEST_F(EngineStudyTest, KeepsToTheLimit) {
   few.max_runs = 3;
   EXPECT_THAT([&] { calibrated(few); },
               ThrowsMessage<base::InputError>(HasSubstr("max_runs 3. Rule: 6 or more")));
-  few.max_runs = 0;  // a fit to what there is
+  few.max_runs = 0;  // only a fit to the existing runs
   few.runs = {place_ / "out/runs/runs.csv"};
   EXPECT_EQ(facts(calibrated(few)).runs, 0);
 }
@@ -225,14 +225,14 @@ TEST_F(EngineStudyTest, TakesRunsOfATableAndChangedRows) {
   const StudyResult result = calibrated(with);
   EXPECT_EQ(result.provenance.table->rows, 6 + facts(result).runs);
   EXPECT_THAT(result.provenance.table->files, ElementsAre("mine.csv", "runs.csv"));
-  // A row that somebody adds is made, by the name that is next.
+  // A row added by hand is run, under the next free name.
   const std::string before = text("out/runs/runs.csv");
   const int runs = facts(result).runs;
   write("out/runs/runs.csv", before + ",0.65,,,,mine\n");
   const StudyResult more = calibrated(with);
   EXPECT_EQ(facts(more).runs, runs + 1);
   EXPECT_THAT(row(fmt::format("run_{:03}", runs + 1)), HasSubstr(",0.65,33.5"));
-  // Others are those of another study.
+  // With another parameter, the existing runs belong to another study.
   write("study.toml",
         std::string(kStudy).replace(std::string(kStudy).find("friction"), 8, "rolling"));
   EXPECT_THAT([&] { calibrated(request()); },

@@ -1,4 +1,4 @@
-// What a user of EDEM types in, pastes and rebuilds.
+// What an EDEM user types in, pastes and rebuilds.
 
 #include <algorithm>
 #include <cstddef>
@@ -57,7 +57,7 @@ TEST(ExportToEdem, EdemIsToldItsOwnNameOfTheRollingModel) {
   }
 }
 
-// What a heap is rebuilt from stands beside the coefficients and how well these are known.
+// What is needed to rebuild a heap is given next to the coefficients and their uncertainties.
 TEST(ExportToEdem, EdemIsToldHowToRebuildTheHeap) {
   dem::Study study = hazelnuts();
   dem::HeapProtocol protocol;
@@ -78,7 +78,7 @@ TEST(ExportToEdem, EdemIsToldHowToRebuildTheHeap) {
       << values;
 }
 
-/// Spheres as a table with tabs has them, below its headings.
+/// The spheres of a tab-separated table, below its headings.
 std::vector<dem::ClumpSphere> pasted(const std::string& table) {
   std::istringstream lines(table);
   std::string headings;

@@ -1,4 +1,4 @@
-// The study and the commands by which further runs of another program are asked for.
+// The study and the commands that request further runs of another program.
 
 #include <string>
 
@@ -26,7 +26,7 @@ dem::Coefficient sought_between(double min, double max) {
   return coefficient;
 }
 
-/// Grains' friction is not determined, and their restitution is: by a heap and a drop.
+/// Restitution between grains is determined; the verdict on their rolling friction is `verdict`.
 StudyExport to_be_run_further(ExportTarget target, const std::string& verdict = "bounded") {
   dem::Study study = hazelnuts();
   study.particle_particle.restitution = sought_between(.1, .9);
@@ -57,21 +57,21 @@ TEST(ExportFurtherRuns, FurtherRunsVaryWhatIsNotDetermined) {
   EXPECT_THAT(
       file_text(to_be_run_further(edem_target(), "determined"), "further_runs.toml"),
       HasSubstr("\"grain with grain: Coefficient of Restitution\" = { min = 0.1, max = 0.9 }"));
-  // A damper falls where restitution rises.
+  // The damping factor falls as restitution rises.
   const std::string dampers =
       file_text(to_be_run_further(yade_target(), "determined"), "further_runs.toml");
   EXPECT_THAT(dampers,
               HasSubstr(fmt::format("\"grain with grain: betan\" = {{ min = {:.6g}, max = "
                                     "{:.6g} }}",
                                     dem::damping_factor(.9) / 2, dem::damping_factor(.1) / 2)));
-  // LAMMPS has no heap, and grains touch in no other experiment of the study.
+  // LAMMPS has no heap, and in no other experiment of the study do grains touch each other.
   EXPECT_THAT(names_of(to_be_run_further(lammps_target())), Not(Contains("further_runs.toml")));
   EXPECT_THAT(file_text(to_be_run_further(lammps_target()), "README.txt"),
               AllOf(HasSubstr("repose measure heap.dump --unit m --definition whole_flank"),
                     Not(HasSubstr("repose ask"))));
 }
 
-// Their decks print the angle at half a millimetre's slip, and the bench gives the onset.
+// Decks print the angle after half a millimetre of slip, whereas the laboratory gives the onset.
 TEST(ExportFurtherRuns, ATiltIsNoReadingOfFurtherRunsOfDecks) {
   const auto further = [](ExportTarget target) {
     dem::Study study = hazelnuts();

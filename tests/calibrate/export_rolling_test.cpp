@@ -24,9 +24,9 @@ TEST(ArmRatio, IsOneForASphereAndLongerForAClump) {
   }
 }
 
-// Two spheres of radius R at +-R on the long axis: lying, a wall is touched at sqrt(2) R; upright
-// at 2 R. Over all directions at u to the axis r^2 = R^2 (2 + 2 u), u even over 0 ... 1: the mean
-// of its root is (16 - 4 sqrt(2)) / 6 ... worked out: sqrt(2) (2/3) (2 sqrt(2) - 1).
+// Two spheres of radius R at +-R on the long axis: lying, they touch a wall at sqrt(2) R; upright,
+// at 2 R. In a direction at cosine u to the axis, r^2 = R^2 (2 + 2 u), u being uniform over 0 ...
+// 1: the mean of r / R is sqrt(2) (2/3) (2 sqrt(2) - 1).
 TEST(ArmRatio, OfTwoTouchingSpheresIsThatOfTheirGeometry) {
   dem::ClumpShape pair;
   pair.spheres = {{.centre = {.01, 0, 0}, .radius = .01}, {.centre = {-.01, 0, 0}, .radius = .01}};
@@ -72,8 +72,8 @@ TEST(ConvertRolling, OwnSpinOfAClumpIsApproximate) {
   EXPECT_THAT(wall.limits, ::testing::HasSubstr("lever"));
 }
 
-// Standard: mu_r F r against each own spin; RVD: mu_r F R* against the relative spin; Type C: a
-// spring up to mu_r F R*.
+// Standard: mu_r F r against each body's own spin; RVD: mu_r F R* against the relative spin; Type
+// C: a spring up to mu_r F R*.
 TEST(ConvertRolling, EdemHasAllThreeOfOurModels) {
   using ::testing::HasSubstr;
   for (const dem::ClumpShape& grain : {kSphere, dem::test::spheroid_clump(3)}) {
@@ -99,7 +99,7 @@ TEST(ConvertRolling, EdemHasAllThreeOfOurModels) {
   EXPECT_THAT(edem_target()->rolling_law(RollingModel::elastic_plastic), HasSubstr("Type C"));
 }
 
-// YADE's lever of mu_r F is (R1 + R2) / 2; ours R* = R on a wall, R / 2 between equal spheres.
+// YADE's lever of mu_r F is (R1 + R2) / 2; ours is R*: R on a wall, R / 2 between equal spheres.
 TEST(ConvertRolling, LeversOfOtherProgramsAreTakenOut) {
   const auto factor = [](ExportTarget target, Partner partner) {
     return sphere(target, RollingModel::elastic_plastic, partner).factor;

@@ -127,7 +127,7 @@ TEST(ExportStudy, EachExperimentBetweenGrainsHasADeckForLiggghts) {
   EXPECT_THAT(names_of(exported(study, liggghts_target())), Not(Contains("fill.lig")));
 }
 
-/// Nuts on steel, with a tube and an incline of acrylic.
+/// Nuts on steel, with a tube and an incline made of acrylic.
 dem::Study on_two_materials() {
   dem::Study study = hazelnuts();
   study.model.parts[dem::WallPart::tube] = {.material = {"acrylic", 1180, 3e9, .35},
@@ -207,7 +207,7 @@ TEST(ExportStudy, AStudyWithoutAnyDeckIsRefused) {
                     HasSubstr("drop, tilt, roll, heap at least")));
 }
 
-// A deck whose grains touch each other has their coefficients, heap or not.
+// A deck in which grains touch each other has their coefficients, with or without a heap.
 TEST(ExportStudy, CoefficientsBetweenGrainsAreThoseOfTheStudy) {
   dem::Study study = hazelnuts();
   study.experiments.clear();
@@ -228,7 +228,7 @@ TEST(ExportStudy, AnotherLawIsRefusedUnlessApproximateIsAskedFor) {
   EXPECT_THAT(exported(hazelnuts(), liggghts_target(), false).files, Not(IsEmpty()));
 }
 
-// The other programs damp each contact with the whole mass.
+// The other programs damp each contact with the whole mass of the bodies.
 TEST(ExportStudy, SharedDampingIsRefusedForClumpsAndPassesForSpheres) {
   dem::Study study = hazelnuts();
   study.model.damping = dem::DampingModel::shared;
@@ -243,7 +243,7 @@ TEST(ExportStudy, SharedDampingIsRefusedForClumpsAndPassesForSpheres) {
   EXPECT_THAT(exported(study, liggghts_target(), false).files, Not(IsEmpty()));
 }
 
-// In the others it is the same at all speeds.
+// In the other programs it is the same at all speeds.
 TEST(ExportStudy, RestitutionThatDependsOnTheSpeedIsRefused) {
   dem::Study study = hazelnuts();
   study.model.grain_wall.restitution_exponent = .1;
@@ -276,7 +276,7 @@ TEST(ExportStudy, MassAndInertiaAreThoseOfTheSurface) {
   }
 }
 
-// LAMMPS takes the tensor in world axes: its trace does not depend on the pose.
+// LAMMPS takes the tensor in world axes; its trace does not depend on the pose.
 TEST(ExportStudy, InertiaTurnsWithTheGrainForLammps) {
   const dem::Study study = hazelnuts();
   const double mass = 851 * study.model.grain.volume_m3;
@@ -355,7 +355,7 @@ TEST(ExportStudy, ACoefficientHasTheValueOfItsSet) {
   EXPECT_THAT(file_text(alone, "README.txt"), Not(HasSubstr("Equally good sets")));
 }
 
-// A name may hold what ends a line, a comment or a string of some program.
+// A name may contain characters that end a line, a comment or a string in some program.
 TEST(ExportStudy, NamesCannotBreakADeck) {
   dem::Study study = hazelnuts();
   study.model.grain_material.name = "nut\nshell rm -rf & \\\n*/ '''\" $(x) ${y} {{MASS}} ; %s";

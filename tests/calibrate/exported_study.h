@@ -12,7 +12,7 @@
 #include "dem/study/study.h"
 #include "tests/dem/experiment_model.h"
 
-// A study to be exported, and what an export of it holds.
+// A study to export, and access to the files of the export.
 namespace repose::calibrate::test {
 
 inline constexpr const char* kWallRolling = "contact.particle_wall.rolling_friction";
@@ -36,7 +36,7 @@ inline StudyExport exported(const dem::Study& study, ExportTarget target, bool a
                       {.target = target, .takes_approximate = approximate});
 }
 
-/// Empty where there is no such file.
+/// Empty if there is no such file.
 inline std::string file_text(const StudyExport& made, const std::string& name) {
   for (const ExportedFile& file : made.files) {
     if (file.name == name) return file.text;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kReadings = 10;
 
-/// A seed of everything that makes a job, so that no two share their chance. FNV-1a.
+/// Hashes (FNV-1a) everything that defines a job, so that no two jobs share their random numbers.
 std::uint64_t mixed(const Job& job) {
   std::uint64_t mix = 0xcbf29ce484222325ULL;
   const auto add = [&](std::uint64_t word) { mix = (mix ^ word) * 0x100000001b3ULL; };
@@ -31,7 +31,7 @@ double log_normal(Random& random, double sd) {
   return std::exp(sd * random.normal() - sd * sd / 2);
 }
 
-/// One reading that scatters; `bench`: as a bench's do, else as a simulation's.
+/// One reading with scatter: that of the laboratory if `bench`, else that of the simulation.
 double scattered(const std::string& experiment, const std::string& reading, double mean, bool bench,
                  Random& random) {
   if (experiment == "drop") return mean * log_normal(random, bench ? .3 : .2);
@@ -40,7 +40,7 @@ double scattered(const std::string& experiment, const std::string& reading, doub
   return mean + (reading == "value" ? .7 : 1.5) * random.normal();
 }
 
-/// Of larger grains, with what they scatter more.
+/// Effect of larger grains, including their additional scatter.
 double size_effect(const Job& job, Random& random) {
   const double size = job.inputs.size;
   if (size == 1) return 0;

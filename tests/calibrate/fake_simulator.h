@@ -6,57 +6,56 @@
 
 #include "calibrate/fit/problem.h"
 
-// Made-up experiments with the shapes and the scatter of the real ones, that take no time.
+// Made-up experiments that behave and scatter like the real ones but take no time.
 namespace repose::calibrate::fake {
 
-/// Restitution, sliding and rolling friction: of grain and wall, then of grain and grain.
+/// Restitution, sliding and rolling friction: particle-wall, then particle-particle.
 std::vector<Parameter> parameters();
 
-/// Values of these that are to be found again.
+/// True values of these, to be recovered.
 inline const std::vector<double> kTruth = {.31, .42, .05, .2, .3, .06};
 
-/// drop, tilt, roll depend on the first three parameters, heap on all six; costs as on one core.
+/// drop, tilt and roll depend on the first three parameters, heap on all six; costs on one core.
 std::vector<Experiment> experiments();
 
-/// Expectation of a reading over all seeds: "value", and "base_radius_mm" of the heap,
-/// "lowest_point_rise_mm" of the drop.
+/// Mean of a reading over all seeds: "value", "base_radius_mm" of the heap, "lowest_point_rise_mm"
+/// of the drop.
 double expected(const std::string& experiment, const std::string& reading,
                 const std::vector<double>& values);
 
-/// Run names something else inside of a gtest test.
+/// Inside a gtest test, Run names something else.
 using Runs = std::vector<Run>;
 
-/// What a tenth of the stiffness adds to the angle of a heap, degrees.
+/// Amount by which a tenth of the stiffness raises the angle of a heap, degrees.
 inline constexpr double kSofteningShift = 2.5;
 
-/// What grains of twice the size add to the angle of a heap, degrees: nothing in the middle, up to
-/// -7 with less friction and to -4 with more, as heaps of wheat do (docs/simulating.md, "Heaps of
+/// Change in the angle of a heap for grains of twice the size, degrees: 0 at medium friction, down
+/// to -7 at low and to -4 at high friction, as for heaps of wheat (docs/simulating.md, "Heaps of
 /// larger grains").
 double size_shift(double sliding_friction);
 
-/// What four times the spheres leave of a rebound.
+/// Fraction of a rebound that remains with four times as many spheres.
 inline constexpr double kFinerRebound = .5;
 
-/// One run with its scatter, softer ones with what that adds, those of more spheres with what that
-/// takes, those of larger grains with their shift, scattering more. Heaps of much friction stay in
-/// the tube when `jams`.
+/// One run with its scatter and the effects of reduced stiffness, of more spheres and of larger
+/// grains, which also scatter more. If `jams`, heaps with high friction stay in the tube.
 Run run(const Job& job, bool jams = false);
 
 Runs run_all(const std::vector<Job>& jobs, bool jams = false);
 
-/// Ten readings of each of the four experiments at `truth`, with a bench's own scatter.
+/// Ten readings of each of the four experiments at `truth`, with laboratory scatter.
 std::vector<Observable> measured(const std::vector<double>& truth, std::uint64_t seed);
 
-/// All of the above in one problem.
+/// All of the above as one problem.
 Problem problem(const std::vector<double>& truth = kTruth, std::uint64_t seed = 1);
 
-/// Gives the heap of a problem coarse runs, of grains so many times their size.
+/// Gives the problem's heap coarse runs, with grains `size` times as large.
 void coarsen(Problem& problem, double size);
 
-/// The runs of the first round, both parts of it.
+/// Both parts of the first round.
 Runs first_runs(const Problem& problem, bool jams = false);
 
-/// Runs whatever is proposed until nothing more is.
+/// Runs proposed jobs until no more are proposed.
 Runs study(const Problem& problem, bool jams = false);
 
 }  // namespace repose::calibrate::fake

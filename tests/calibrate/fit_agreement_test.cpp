@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Plates that slide at once where the bench's did, or `off` standard uncertainties of a mean known
-/// by many readings away: each an experiment of its own, without chance.
+/// Plates simulated to slide `off` standard uncertainties away from the measured angle, whose mean
+/// is known from many readings: each is a separate experiment without random scatter.
 struct Plates {
   Problem problem;
   std::vector<Run> runs;
@@ -37,10 +37,10 @@ Plates plates(const std::vector<double>& off, double uncertainty) {
 Verification checked(const Plates& made) { return verify(made.problem, {.5}, made.runs); }
 
 TEST(Agreement, SmallDifferencesAreADisagreementTogether) {
-  // None is beyond 2.5, the limit of each alone at 5 % over four. The tolerance is 2 degrees.
+  // None exceeds 2.5, the individual limit at 5 % over four readings. The tolerance is 2 degrees.
   const Verification one = checked(plates({-.4, 0, 2.4, 2.1}, 1.1));
   EXPECT_EQ(one.verdict, AgreementVerdict::disagrees);
-  EXPECT_NEAR(one.chance, .035, .001);  // of .16 + 0 + 5.76 + 4.41, a chi-square of 4
+  EXPECT_NEAR(one.chance, .035, .001);  // of .16 + 0 + 5.76 + 4.41, chi-square, 4 df
   for (const Agreement& agreement : one.observables) {
     EXPECT_NE(agreement.verdict, AgreementVerdict::disagrees) << agreement.observable;
   }
@@ -87,7 +87,7 @@ TEST(Agreement, EqualMeansAreRarelyCalledDifferentAndFarOnesRarelyAlike) {
   for (int k = 0; k < 400; ++k) {
     const auto at = [&](double mean) { return mean + random.normal(); };
     wrong += checked(plates({at(0), at(0), at(0)}, 1)).verdict == AgreementVerdict::disagrees;
-    // Just the tolerance apart: agreement may be claimed in 5 % of cases.
+    // Exactly the tolerance apart: agreement may be claimed in 5 % of cases.
     alike += checked(plates({at(5)}, .4)).verdict == AgreementVerdict::agrees;
   }
   EXPECT_LE(wrong, 33);  // 20 +- 4.4 expected
@@ -121,13 +121,13 @@ TEST(Agreement, ReadingsOfOneHeapAreJudgedByWhatTheyShare) {
     fit.bench_correlation = fit.reading_correlation;
     return verify(made.problem, {.5}, made.runs, &fit).chance;
   };
-  EXPECT_NEAR(chance_with(0), std::exp(-8 / 2.), 1e-4);  // a chi-square of 2
+  EXPECT_NEAR(chance_with(0), std::exp(-8 / 2.), 1e-4);  // chi-square with 2 degrees of freedom
   EXPECT_NEAR(chance_with(.9), std::exp(-8 / 1.9 / 2), 1e-4);
   EXPECT_LT(chance_with(-.9), 1e-9);
 }
 
 TEST(Agreement, RunsToDecideDecide) {
-  // Bench 0 +- .3, runs that scatter by 2.5, three of them, a degree off; tolerance 2.
+  // Measured 0 +- .3; three runs with an sd of 2.5, off by one degree; tolerance 2.
   const UncertainMean measured{0, .3, kInfinite};
   const auto after = [&](int runs) {
     return difference_of({1, 2.5 / std::sqrt(runs), 40}, measured);
@@ -155,7 +155,7 @@ TEST(Agreement, MarginsAreFixedBeforehand) {
   };
   EXPECT_EQ(margin({}).value, 40);
   EXPECT_EQ(margin({}).source, MarginSource::reading);
-  observable.sd = 1000;  // a sloppier bench does not agree more easily
+  observable.sd = 1000;  // larger scatter of the readings does not make agreement easier
   EXPECT_EQ(margin(Interval{0, 1000}).value, 40);
   EXPECT_NEAR(margin(Interval{390, 410}).value, 2, 1e-12);
   EXPECT_EQ(margin(Interval{390, 410}).source, MarginSource::range);
@@ -169,7 +169,7 @@ TEST(Agreement, MarginsAreFixedBeforehand) {
 }
 
 TEST(Agreement, ReadingsToDecideDecide) {
-  // A ball of 100 +- 60 mm, three readings, reproduced to the millimetre; margin 10 mm.
+  // A ball rebounds 100 +- 60 mm in three readings, simulated to within a millimetre; margin 10 mm.
   const auto after = [](int readings) {
     return difference_of({101, .1, 40}, {100, 60 / std::sqrt(readings), readings - 1.});
   };

@@ -1,4 +1,4 @@
-// What verdicts rest on where nobody measured how readings scatter.
+// Verdicts that rest on assumed scatter, where nobody measured it.
 
 #include <algorithm>
 #include <string>
@@ -30,7 +30,7 @@ Problem without_heap() {
   return problem;
 }
 
-/// A bench whose rolls nobody repeated, but for their mean.
+/// A bench of which only the mean of the rolls is known, not their scatter.
 Problem of_unknown_rolls(double fraction) {
   Problem problem = without_heap();
   Observable& roll = *std::ranges::find(problem.observables, "roll", &Observable::name);
@@ -47,9 +47,9 @@ TEST(AssumedScatter, IsNoneWhereAllWasMeasured) {
   EXPECT_THAT(found.coefficients, IsEmpty());
 }
 
-// The fit of a bench that says half and twice itself is the same, digit for digit.
+// Fits with half or twice the assumed scatter stated explicitly give the same results.
 TEST(AssumedScatter, IsHalvedAndDoubledAsIfItHadBeenAssumedSo) {
-  constexpr double kAssumed = 1.2;  // more than chance does, by half too
+  constexpr double kAssumed = 1.2;  // more than the random scatter, even when halved
   const Problem problem = of_unknown_rolls(kAssumed);
   const fake::Runs runs = fake::first_runs(problem);
   const JointFit fit = fit_jointly(problem, runs);

@@ -8,7 +8,7 @@
 namespace repose::calibrate {
 namespace {
 
-/// Learned where x < .5 only.
+/// Trained only where x < .5.
 Surrogate half_known(bool is_stochastic) {
   TrainingSet training_set{{0}, is_stochastic, {}, {}};
   Random luck(1);

@@ -15,14 +15,14 @@ namespace {
 using ::testing::Each;
 using ::testing::SizeIs;
 
-/// Run names something else inside of a gtest test.
+/// Inside a gtest test, Run names something else.
 using Runs = std::vector<Run>;
 using OneRun = Run;
 
 constexpr double kFall_mm = 500;
-constexpr double kTwentieth = .01;  // of a millimetre, by which other seeds move a rebound
+constexpr double kTwentieth = .01;  // mm, by which another seed changes a rebound
 
-/// A ball dropped 500 mm on a plate. Its experiment may have chance, for grains of other shapes do.
+/// A ball dropped 500 mm onto a plate. Treated as stochastic, as it is with other grain shapes.
 Problem ball_drop() {
   Problem problem;
   problem.parameters = {{"restitution", .6, .99, {}}};
@@ -32,7 +32,7 @@ Problem ball_drop() {
   return problem;
 }
 
-/// h = e^2 H; `scatter_mm`: what a seed adds.
+/// h = e^2 H; `scatter_mm` is the amplitude of the seed's effect.
 Run dropped(const Job& job, double scatter_mm = 0) {
   const double rise = kFall_mm * job.values[0] * job.values[0] +
                       scatter_mm * std::sin(static_cast<double>(job.seed));
@@ -98,7 +98,7 @@ TEST(Chance, WithoutItRepeatsTellNoMoreThanTheFirst) {
               SizeIs(others.size()));
 }
 
-/// Restitution of a ball: e = sqrt(h / H), and Student's interval of the bench's mean alone.
+/// Restitution of a ball: e = sqrt(h / H), with Student's interval of the measured mean alone.
 TEST(Chance, ABallsRestitutionIsAsUncertainAsItsReboundsAndNoMore) {
   const Problem problem = ball_drop();
   const JointFit fit = fit_jointly(problem, drops_of(problem));
@@ -112,15 +112,15 @@ TEST(Chance, ABallsRestitutionIsAsUncertainAsItsReboundsAndNoMore) {
   EXPECT_THAT(fit.curves[0].scatter, Each(0));
 }
 
-/// Two readings of one experiment that the simulation cannot move apart: the bench's chance is not
-/// known from it, and is not invented.
+/// Two readings of one experiment that the simulation cannot vary independently: the correlation of
+/// the laboratory scatter is unknown and taken as 0.
 TEST(Chance, WithoutItReadingsOfOneExperimentAreTakenForIndependent) {
   Problem problem = ball_drop();
   problem.observables.push_back(
       {"drop.lowest_point_rise_mm", "drop", "lowest_point_rise_mm", "mm", 409, 8, 20, {}});
   const JointFit fit = fit_jointly(problem, drops_of(problem));
   EXPECT_EQ(fit.reading_correlation[0][1], 0);
-  // Their best compromise is 2.15 mm off both means, each known within 1.91 mm (Student's share).
+  // The best compromise is 2.15 mm off both means, each known within 1.91 mm (with Student-t).
   const double u = 8 / std::sqrt(20) * 2.093024 / 1.959964;
   EXPECT_NEAR(fit.chi2, 2 * std::pow(2.15 / u, 2), .05);
 }

@@ -1,4 +1,4 @@
-// Coarse runs: cheaper ones of larger grains, off by what full ones beside them tell.
+// Coarse runs: cheaper runs with larger grains, corrected by full runs at nearby places.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ constexpr double kCoarseShift = 1.5;
 
 double full_curve(const Point& x) { return 3 * std::sin(3 * x[0]) + x[1]; }
 
-/// Values of the full_curve, the first ones full and the others coarse: by a shift that may lean.
+/// Values of full_curve: full runs first, then coarse ones, off by a shift of slope `lean`.
 struct TwoKinds {
   std::vector<Point> places;
   std::vector<double> values;
@@ -72,7 +72,7 @@ TEST(CoarseValues, WhatIsExpectedIsTheFullFunction) {
       ++tried;
     }
   }
-  // 30 of 95 % hold 26 to 30 in 98.6 % of such trials; places of one seed vary together.
+  // Of 30 intervals of 95 %, 26 to 30 hold in 98.6 % of trials; those of one seed are correlated.
   EXPECT_THAT(within, AllOf(Ge(25), Le(tried)));
 }
 
@@ -90,7 +90,7 @@ TEST(CoarseValues, TeachMoreThanTheFewFullOnesAlone) {
 TEST(CoarseValues, NeverKnowMoreThanTheirShiftIsKnown) {
   const GaussianProcess process = two_kinds(2, 200, 0).process();
   const Point place = {.45, .55};
-  // Of so many the sum is known: what is left is how the two halves share it.
+  // With so many coarse runs the sum of curve and shift is known; only its split remains uncertain.
   EXPECT_NEAR(process.at(place, false).variance, process.coarse_shift(place).variance,
               .3 * process.coarse_shift(place).variance);
 }
@@ -119,7 +119,7 @@ TEST(CoarseValues, GradientsAreThoseOfWhatIsExpected) {
   }
 }
 
-/// Coarse ones everywhere, full ones at `full` places.
+/// Coarse runs everywhere, and `full` full runs.
 Surrogate surrogate_of_kinds(std::size_t full) {
   const TwoKinds data = two_kinds(full, 40, 0);
   TrainingSet training_set{{0, 1}, true, data.places, data.values};
@@ -176,7 +176,7 @@ TEST(CoarseRuns, TheFirstRoundHasNoFullOnes) {
   EXPECT_THAT(heap_jobs(jobs, true).size(), Ge(14U)) << "2 for each coefficient, and 2 more";
 }
 
-/// With so many full heaps at the truth.
+/// The first round, and `full` full heaps at the truth.
 fake::Runs first_and_checked(const Problem& problem, int full) {
   fake::Runs runs = fake::first_runs(problem);
   for (const Job& job : verification_jobs(problem, fake::kTruth, full, 0)) {

@@ -17,11 +17,11 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Experiments without chance that read 20 + slope x, and what a bench reads of each.
+/// Experiments without random scatter that read 20 + slope x, and the laboratory reading of each.
 struct Lines {
   std::vector<double> slopes;
   std::vector<double> measured;
-  double uncertainty = .1;  // of each mean, known by many readings
+  double uncertainty = .1;  // of each mean, known from many readings
 };
 
 Problem problem_of(const Lines& lines) {
@@ -62,7 +62,7 @@ TEST(Freedom, ThreeReadingsOfOneCoefficientLeaveTwo) {
   const Freedom freedom = fit_of_lines(Lines{{10, 20, -10}, {25, 30, 15}}).freedom;
   EXPECT_NEAR(freedom.degrees, 2, .01);
   EXPECT_NEAR(freedom.of_chi2, 2, .01);
-  // H = a a^T / a^T a for equal uncertainties: a^2 = 100, 400, 100 of 600.
+  // H = a a^T / (a^T a) for equal uncertainties: a^2 = 100, 400, 100 of 600.
   EXPECT_NEAR(freedom.followed[0][0], 1 / 6., .01);
   EXPECT_NEAR(freedom.followed[1][1], 4 / 6., .01);
   EXPECT_NEAR(freedom.followed[2][1], -2 / 6., .01);
@@ -87,7 +87,7 @@ TEST(Freedom, WhatAFitUsesUpIsNotTested) {
 TEST(Freedom, WhatIsKnownBeforehandCountsAsAReading) {
   const Lines lines{{10}, {25}};
   Problem problem = problem_of(lines);
-  problem.parameters[0].prior = Prior{.5, .01};  // as sure as the reading: .1 / 10
+  problem.parameters[0].prior = Prior{.5, .01};  // as certain as the reading: .1 / 10
   const Freedom freedom = fit_of_lines(problem, lines).freedom;
   EXPECT_NEAR(freedom.degrees, .5, .01);
   EXPECT_NEAR(freedom.of_chi2, 1, .01);
@@ -106,9 +106,9 @@ TEST(Freedom, ChiSquareIsComparedWithWhatIsLeft) {
               Not(no_set_fits));
 }
 
-/// How often bench and simulation are said to disagree, in percent, where they are alike: `count`
-/// readings that depend on `fitted` coefficients linearly, the fit that has them, and a check of
-/// runs with the standard uncertainty `u_y` where the bench's is 1, known by `n` readings.
+/// How often, in percent, simulation and laboratory are said to disagree although they agree:
+/// `count` readings that depend linearly on `fitted` coefficients, their fit, and a check by runs
+/// with standard uncertainty `u_y`, that of the laboratory being 1, from `n` readings.
 double disagreements(int count, int fitted, double u_y, int n, std::uint64_t seed) {
   constexpr int kTrials = 1000;
   constexpr int kRuns = 8;
@@ -164,7 +164,7 @@ double disagreements(int count, int fitted, double u_y, int n, std::uint64_t see
 }
 
 TEST(Freedom, WhatIsAlikeIsCalledDifferentInOneOfTwentyCases) {
-  // 5 +- .7 % of 1000 by chance.
+  // 5 +- .7 % (one sigma) in 1000 trials.
   constexpr int kMany = 200;
   EXPECT_NEAR(disagreements(2, 1, .2, kMany, 1), 5, 2.5);
   EXPECT_NEAR(disagreements(3, 2, .2, kMany, 2), 5, 2.5);

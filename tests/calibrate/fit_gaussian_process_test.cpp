@@ -62,7 +62,7 @@ TEST(GaussianProcess, LeavingOneOutIsTheSameAsNotHavingIt) {
   Data data = noisy(25, .1);
   const GaussianProcess all(data.places, data.values, true, {}, 1);
   const LeaveOneOut last = all.leave_one_out().back();
-  // Prediction of the last value from the others, written out with the covariances of all.
+  // Prediction of the last value from the others, worked out from the posterior covariance of all.
   const std::vector<double> posterior = all.covariance({data.places.back()});
   const double noise2 = all.noise_sd() * all.noise_sd();
   const double latent2 = posterior[0];
@@ -71,8 +71,7 @@ TEST(GaussianProcess, LeavingOneOutIsTheSameAsNotHavingIt) {
   EXPECT_NEAR(last.sd * last.sd, without2 + noise2, 1e-6 * last.sd);
 }
 
-/// By sufficiency: of normal noise, mean, number and sum of squares tell all that the runs do.
-/// A value of which nearly nothing is known changes nearly nothing; taken for sure it does.
+/// An almost unknown value changes almost nothing; the same value treated as certain does.
 TEST(GaussianProcess, UncertainValuesCountLess) {
   const Data data = noisy(30, 0);
   Data with_wrong = data;
@@ -89,13 +88,14 @@ TEST(GaussianProcess, UncertainValuesCountLess) {
   EXPECT_NEAR(unsure.at(place, false).mean, expected, .02);
   EXPECT_GT(std::abs(sure.at(place, false).mean - expected), .1);
   EXPECT_GT(unsure.leave_one_out().back().sd, 50);
-  // The same for all: the noise that is sought is what is left.
+  // The same variance for all: the fitted noise is the remainder.
   const Data scattered = noisy(60, .2);
   told.own_variances.assign(scattered.values.size(), .04);
   const GaussianProcess rest(scattered.places, scattered.values, true, {}, 2, told);
   EXPECT_LT(rest.noise_sd(), .1);
 }
 
+/// With normal noise, mean, number and sum of squares are sufficient statistics of the runs.
 TEST(GaussianProcess, LearnsFromMeansAndTheirScatterWhatTheRunsThemselvesTell) {
   constexpr std::size_t kPlaces = 30;
   constexpr int kRepeats = 3;
@@ -129,7 +129,7 @@ TEST(GaussianProcess, LearnsFromMeansAndTheirScatterWhatTheRunsThemselvesTell) {
     EXPECT_NEAR(std::sqrt(one.variance), std::sqrt(other.variance),
                 .05 * std::sqrt(other.variance));
   }
-  // Taken for single runs, they would hide most of the noise.
+  // If treated as single runs, the means would hide most of the noise.
   const GaussianProcess of_singles(means.places, means.values, true, {}, 2);
   EXPECT_LT(of_singles.noise_sd(), .8 * kNoise);
 }

@@ -1,5 +1,5 @@
-// How far chi2 may rise within an interval where the bench's scatter is known from few readings:
-// against Student, Welch and Satterthwaite in closed form, and by how often intervals hold.
+// How far chi2 may rise within an interval if few readings determine their scatter: compared with
+// Student, Welch and Satterthwaite in closed form, and by how often intervals hold.
 
 #include <array>
 #include <cmath>
@@ -19,8 +19,8 @@
 namespace repose::calibrate {
 namespace {
 
-/// A reading 10 + slope · x of an experiment without chance, x being in the unit box, and what a
-/// bench gave of it.
+/// A reading 10 + slope · x of an experiment without random scatter, x in the unit box, and its
+/// laboratory mean, sd and n.
 struct LinearReading {
   std::vector<double> slope;
   double mean = 0;
@@ -87,8 +87,8 @@ TEST(IntervalLimit, OfOneReadingIsStudents) {
   }
 }
 
-// Two readings tell two parameters as half their sum and half their difference. GUM G.2b: of two
-// equal variances, each of four degrees of freedom, the sum has eight: t = 2.306.
+// Two readings determine two parameters as half their sum and half their difference. GUM G.2b: the
+// sum of two equal variances, each with four degrees of freedom, has eight: t = 2.306.
 TEST(IntervalLimit, OfTwoEqualReadingsOfTwoParametersHasTheirDegreesTogether) {
   const JointFit fit = fit_of_readings({{{20, 20}, 30, .5, 5}, {{20, -20}, 10, .5, 5}});
   const double half = 2.306004 * (.5 / std::sqrt(5)) / (20 * std::sqrt(2));
@@ -105,8 +105,8 @@ TEST(IntervalLimit, OfReadingsThatDifferHasWelchsDegrees) {
   EXPECT_NEAR(half_width(fit.parameters[0]), half, .01 * half);
 }
 
-// Meier (1953), equation for the variance of a weighted mean: weights of 1/2 each, known by four
-// degrees of freedom, make it (1 + 4 · (1/4 + 1/4) / 4) times as large.
+// Meier (1953), equation for the variance of a weighted mean: weights of 1/2 each, estimated with
+// four degrees of freedom, multiply it by 1 + 4 · (1/4 + 1/4) / 4.
 TEST(IntervalLimit, OfTwoReadingsOfOneParameterPaysForTheirWeights) {
   const double half = 2.306004 * .5 / std::sqrt(10) * std::sqrt(1.5) / 20;
   EXPECT_NEAR(half_width(fit_of_readings({{{20}, 20, .5, 5}, {{20}, 20, .5, 5}}).parameters[0]),
@@ -121,7 +121,7 @@ TEST(IntervalLimit, IsThatOfTheNormalDistributionWhereScattersAreKnown) {
   EXPECT_EQ(misfit.interval_limit({.5, .5}, 0), kChi2Limit);
 }
 
-// One that no reading tells is somewhere within its bounds, and so makes the others hardly unsure.
+// A parameter that no reading determines lies within its bounds, so it hardly affects the others.
 TEST(IntervalLimit, OfAParameterIsTheSameBesideOneThatNoReadingTells) {
   const JointFit fit =
       fit_of_readings({{{20, 20, .01}, 30.005, .5, 5}, {{20, -20, .01}, 10.005, .5, 5}});
@@ -130,7 +130,7 @@ TEST(IntervalLimit, OfAParameterIsTheSameBesideOneThatNoReadingTells) {
   EXPECT_EQ(fit.parameters[2].verdict, Verdict::undetermined);
 }
 
-// What readings have in common is known: GUM G.2b with an infinite number for it.
+// The common error is known: GUM G.2b with infinite degrees of freedom for it.
 TEST(IntervalLimit, WhatReadingsHaveInCommonMakesDegreesMore) {
   const std::vector<LinearReading> readings = {{{20}, 20, .5, 4}};
   Problem problem = problem_of(readings);
@@ -173,14 +173,14 @@ TEST(IntervalLimit, EquallyGoodSetsAreWithinAllIntervals) {
   }
 }
 
-/// Readings of what the middle of the box reads, so many of each, that scatter by .2.
+/// Laboratory readings at the centre of the box, `n` of each kind, with an sd of .2.
 struct Bench {
   std::vector<std::vector<double>> slopes;
   std::vector<int> n;
 };
 
-/// How often the interval of each parameter holds the truth, in percent: where chi2 at the truth,
-/// all others fitted again, is above its minimum by no more than the limit.
+/// How often the interval of each parameter holds the truth, in percent: how often chi2 at the true
+/// value, with all others refitted, exceeds its minimum by no more than the limit.
 std::vector<double> held_percent(const Bench& bench, std::uint64_t seed) {
   constexpr int kDraws = 600;
   constexpr double kSd = .2;
@@ -228,8 +228,8 @@ void expect_held(const Bench& bench, double least, double most) {
   }
 }
 
-// Chance alone moves 95 % of 600 by .9 % (one sigma). Without the limit two readings of two
-// parameters hold 96.3 to 98.2 %.
+// 600 trials of 95 % scatter by .9 % (one sigma). Without the limit, two readings of two parameters
+// hold 96.3 to 98.2 %.
 TEST(IntervalLimit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   for (const int n : {3, 5, 6}) expect_held({kOneReading, {n}}, 93, 97);
   expect_held({kTwoOfTwo, {3, 3}}, 93, 97);
@@ -239,8 +239,8 @@ TEST(IntervalLimit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   expect_held({kThreeOfTwo, {5, 5, 6}}, 92, 97);
 }
 
-// Estimated weights are corrected for to first order in one over the degrees of freedom. Without
-// that five readings each hold 89.8 %.
+// Estimated weights are corrected to first order in one over the degrees of freedom. Without that,
+// five readings each hold 89.8 %.
 TEST(IntervalLimit, ReadingsOfOneParameterAreNotCountedTwice) {
   expect_held({kTwoOfOne, {5, 5}}, 91.5, 97);
   expect_held({kTwoOfOne, {6, 10}}, 91.5, 97);

@@ -24,7 +24,7 @@ bool holds(const FittedParameter& parameter, double value) {
   return parameter.interval.low <= value && value <= parameter.interval.high;
 }
 
-/// One study of the whole made-up bench for all tests that only look at it.
+/// One study of all made-up experiments, shared by the tests that only inspect it.
 class JointFitOfTheBench : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -67,7 +67,7 @@ TEST_F(JointFitOfTheBench, SaysThatTheHeapCannotSeeRestitution) {
 }
 
 TEST_F(JointFitOfTheBench, NamesTheReadingThatWouldCutTheValley) {
-  // One angle, two frictions between grains: the base radius sees sliding friction for itself.
+  // One angle, two frictions between grains: the base radius isolates sliding friction.
   EXPECT_NE(fit_->parameters[4].verdict, Verdict::determined);
   EXPECT_THAT(fit_->parameters[4].advice, HasSubstr("base_radius_mm"));
 }
@@ -78,7 +78,7 @@ TEST_F(JointFitOfTheBench, FindsTheValley) {
   double most = 0;
   for (const ParameterSet& set : fit_->equivalence_family) {
     EXPECT_LE(set.chi2, 3.85);
-    // What the made-up heap really gives there; without runs nearby, that is not known better.
+    // The true angle of the made-up heap there; without nearby runs it is known no better.
     EXPECT_NEAR(fake::expected("heap", "value", set.values), 22.5, 4);
     least = std::min(least, set.values[4]);
     most = std::max(most, set.values[4]);
@@ -170,7 +170,7 @@ TEST_F(JointFitOfTheBench, IsTheSameToTheLastBitInAnyOrder) {
   EXPECT_EQ(again.chi2, fit_->chi2);
 }
 
-/// A tilting plate alone: quick, and its answer is known in closed form.
+/// Only a tilting plate: quick, with a closed-form solution.
 Problem plate(double mean, double sd, int n) {
   Problem problem;
   problem.parameters = {{"friction", .1, .8, {}}};
@@ -250,7 +250,7 @@ TEST(JointFit, ReadingsThatAreMoreAlikeThanChanceAllowsAreNamed) {
 }
 
 TEST(JointFit, KnowledgeBeforehandCounts) {
-  // The measurement says .4 +- .1, before it was .3 +- .1: the two meet half-way.
+  // The measurement gives .4 +- .1, the prior .3 +- .1: the fit lies half-way between them.
   Problem problem = plate(20, 0, 1);
   problem.observables[0].sd.reset();
   problem.observables[0].assumed_sd_fraction = .25;
@@ -270,7 +270,7 @@ TEST(JointFit, AnIntervalThatIsOnlyTheKnowledgeBeforehandIsCalledThat) {
 }
 
 TEST(JointFit, AWideIntervalInsideItsBoundsIsBoundedNotDetermined) {
-  // 22 +- 10 degrees, five readings: Student's interval is +- 12 degrees.
+  // 22 +- 10 degrees from five readings: Student's interval is +- 12 degrees.
   Problem problem = plate(22, 10, 5);
   const FittedParameter wide = plate_fit(problem).parameters[0];
   EXPECT_EQ(wide.verdict, Verdict::bounded);
@@ -401,7 +401,7 @@ TEST(JointFit, FailedRunsAreCountedAndKeptAwayFrom) {
 }
 
 TEST(JointFit, IntervalsOfSeveralMaterialsHoldTheirTruths) {
-  // A smoke test: tests/bench/recovery.cpp counts properly.
+  // A smoke test; tests/bench/recovery.cpp counts properly.
   const std::vector<std::vector<double>> truths = {
       {.25, .3, .03, .4, .6, .03}, {.5, .6, .12, .1, .2, .15}, {.4, .2, .08, .3, .4, .1}};
   int held = 0;

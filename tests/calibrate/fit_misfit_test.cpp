@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 using fake::kTruth;
 
-/// Prior, failures and all.
+/// With prior, failures and everything else.
 Problem full_problem(bool robust) {
   Problem problem = fake::problem(kTruth, 1);
   problem.parameters[3].prior = Prior{.2, .05};
@@ -34,7 +34,7 @@ Misfit misfit_of(const Problem& problem, bool jams) {
 TEST(Misfit, DerivativesAreThoseOfItsValues) {
   for (const bool robust : {false, true}) {
     const Misfit misfit = misfit_of(full_problem(robust), true);
-    const Point here = {.5, .3, .4, .6, .8, .7};  // near where heaps jam
+    const Point here = {.5, .3, .4, .6, .8, .7};  // close to where heaps jam
     const Residuals all = misfit.residuals(here, true);
     for (std::size_t j = 0; j < here.size(); ++j) {
       constexpr double kStep = 1e-5;
@@ -53,7 +53,7 @@ TEST(Misfit, DerivativesAreThoseOfItsValues) {
   }
 }
 
-/// The base radius, which repeats part of what the angle says, is measured of five of the heaps.
+/// The base radius, which partly repeats the angle, is measured on five of the heaps.
 Problem with_radius(const Problem& problem) {
   Problem more = problem;
   more.observables.push_back(
@@ -61,7 +61,7 @@ Problem with_radius(const Problem& problem) {
   return more;
 }
 
-/// Heaps whose radius follows the chance of their angle.
+/// Heaps whose radius follows the random scatter of their angle.
 fake::Runs heaps_of_one_volume(const Problem& problem) {
   fake::Runs runs = fake::run_all(first_round(problem));
   for (auto& run : runs) {
@@ -117,7 +117,7 @@ TEST(ReadingCorrelation, IsNoneOfAReadingThatTheBenchReadsInTrialsOfItsOwn) {
 }
 
 TEST(ReadingCorrelation, WhatACurveDoesNotFollowIsNoChance) {
-  // Both readings follow the place in a way that no curve through so few runs does.
+  // Both readings vary with the place in a way that no curve through so few runs can follow.
   Problem problem = with_radius(full_problem(false));
   problem.settings.budget_s = 3000;
   fake::Runs runs = fake::run_all(first_round(problem));
@@ -147,7 +147,7 @@ TEST(ReadingCorrelation, ABenchSharesWhatTheSimulationExplains) {
 }
 
 TEST(ReadingCorrelation, WhatTwoReadingsShareCountsOnce) {
-  // Both 2 sigma off: alike in sign and all but one reading, that is no more than one of them off.
+  // Both 2 sigma off: if alike in sign and almost one reading, hardly more than one of them off.
   const std::vector<CorrelatedPart> parts = {{2, 1, 0, 10, {}, {}}, {2, 1, 0, 10, {}, {}}};
   const auto chi2 = [&](double correlation) {
     const Residuals r =
@@ -182,12 +182,12 @@ TEST(Misfit, WhatReadingsHaveInCommonIsPartOfTheirMeansUncertainty) {
 TEST(Misfit, AReadingOfOneGrainScattersMoreThanTheMeanOfTen) {
   Problem problem = full_problem(false);
   problem.observables[0].sd.reset();
-  problem.observables[0].assumed_sd_fraction = .001;  // less than chance does
+  problem.observables[0].assumed_sd_fraction = .001;  // less than the random scatter
   const double one = misfit_of(problem, false).measured_uncertainty(0);
   problem.experiments[0].readings_per_run = 10;
   const double ten = misfit_of(problem, false).measured_uncertainty(0);
   EXPECT_NEAR(ten / one, std::sqrt(10), 1e-9);
-  // 20 % of log-normal scatter from run to run, ten readings of the bench.
+  // 20 % log-normal scatter from run to run, ten laboratory readings.
   EXPECT_NEAR(one, .2 * problem.observables[0].mean / std::sqrt(10), .3 * one);
 }
 
@@ -196,7 +196,7 @@ TEST(Misfit, AReadingFromOneSideScattersMoreThanARunSeenFromMany) {
   const std::size_t heap = 3;
   ASSERT_EQ(problem.observables[heap].name, "heap");
   problem.observables[heap].sd.reset();
-  problem.observables[heap].assumed_sd_fraction = .001;  // less than chance does
+  problem.observables[heap].assumed_sd_fraction = .001;  // less than the random scatter
   fake::Runs runs = fake::run_all(first_round(problem));
   for (auto& run : runs) {
     if (run.job.experiment == "heap") run.readings["within"] = run.job.seed % 2 == 0 ? 1 : 7;
@@ -207,7 +207,7 @@ TEST(Misfit, AReadingFromOneSideScattersMoreThanARunSeenFromMany) {
   };
   const double seen_from_many = sd_of_one();
   problem.experiments[heap].scatter_within = "within";
-  const double within = 5;  // root mean square of 1 and 7, equally often
+  const double within = 5;  // root mean square of equal numbers of 1 and 7
   EXPECT_NEAR(sd_of_one(), std::hypot(seen_from_many, within), .2);
 }
 
@@ -260,7 +260,7 @@ TEST(Minimum, StaysInTheBoxAndHoldsWhatIsHeld) {
 }
 
 TEST(Plausible, SpreadIsThatOfTheKnowledge) {
-  // Only the prior tells anything of the restitution between grains: its own spread comes back.
+  // Only the prior constrains the restitution between grains, so its spread comes back.
   const Problem problem = full_problem(false);
   const PosteriorSamples sets = posterior_samples(misfit_of(problem, false), 7);
   const double width = problem.parameters[3].max - problem.parameters[3].min;

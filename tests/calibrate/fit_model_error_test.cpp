@@ -1,4 +1,4 @@
-// What the model gets wrong whatever its coefficients: known beforehand, and more where readings
+// Model error that remains whatever the coefficients are: known beforehand, and larger if readings
 // that share a coefficient contradict each other.
 
 #include <cmath>
@@ -21,10 +21,10 @@ namespace repose::calibrate {
 namespace {
 
 constexpr double kNormal95 = 1.96;
-constexpr int kReadings = 10'000;  // a standard deviation is known
+constexpr int kReadings = 10'000;  // so that the standard deviation is known
 
-/// Experiments without chance that read 10 + 20 x, what a bench reads of each, with the standard
-/// uncertainty .1, and what the model gets wrong of each.
+/// Experiments without random scatter that read 10 + 20 x, the laboratory reading of each, with a
+/// standard uncertainty of .1, and the model error of each.
 struct MissedBench {
   std::vector<double> measured;
   std::vector<double> model_sd;
@@ -80,9 +80,9 @@ TEST(ModelError, StaysWhatWasSaidWhereNothingIsLeftToTellBy) {
   EXPECT_EQ(fit_of(MissedBench{{20}, {0}}).model_error_scale, std::nullopt);
 }
 
-// Means of equal uncertainty s differ from theirs by s^2 on average where (x1 - x2)^2 / 2 = s^2
-// (Paule and Mandel 1982, equation 8, two laboratories): 22 - 18 gives s^2 = 8, of which .01 is the
-// bench's.
+// The variance s^2 of two means of equal uncertainty that differ by x1 - x2 is estimated as (x1 -
+// x2)^2 / 2 (Paule and Mandel 1982, equation 8, two laboratories): 22 - 18 gives s^2 = 8, of which
+// .01 is that of the readings.
 TEST(ModelError, IsAsLargeAsReadingsContradictEachOther) {
   const JointFit fit = fit_of(MissedBench{{18, 22}, {.5, .5}});
   ASSERT_TRUE(fit.model_error_scale);
@@ -96,7 +96,7 @@ TEST(ModelError, StaysWhatWasSaidWhereReadingsAgree) {
   EXPECT_EQ(fit_of(MissedBench{{19.8, 20.2}, {.5, .5}}).model_error_scale, 1);
 }
 
-// Of two models the one that is known to be worse gives way.
+// The reading with the larger stated model error gives way.
 TEST(ModelError, IsSharedAsItWasSaid) {
   const JointFit fit = fit_of(MissedBench{{18, 22}, {.1, .5}});
   EXPECT_NEAR(fit.parameters[0].value, (18 - 10) / 20. + .2 / 26, .003);
@@ -109,7 +109,7 @@ TEST(ModelError, WithoutOneReadingsThatContradictEachOtherAreWarnedOf) {
   EXPECT_NEAR(half_width(fit), kNormal95 * .1 / std::sqrt(2.) / 20, 2e-4) << "as if it were right";
 }
 
-// Fits of a model that is wrong by as much as was said, and by more: N(0, (2 d)^2).
+// Fits of a model that is worse than stated: its error is N(0, (2 d)^2).
 TEST(ModelError, IntervalsHoldTheTruthOfAModelThatIsWorseThanWasSaid) {
   constexpr int kTrials = 150, kReadingsOfEach = 5;
   int held = 0;
@@ -123,11 +123,11 @@ TEST(ModelError, IntervalsHoldTheTruthOfAModelThatIsWorseThanWasSaid) {
     const Interval interval = fit_of(bench).parameters[0].interval;
     held += interval.low <= .5 && .5 <= interval.high ? 1 : 0;
   }
-  // By what was said alone it would be 1.96 .32 / .61 sigma: 69 %.
+  // With the stated error alone it would be 1.96 .32 / .61 sigma: 69 %.
   EXPECT_GE(held, .85 * kTrials);
 }
 
-// More readings do not make a model better.
+// More readings do not improve the model.
 TEST(ModelError, IsWhatMoreReadingsLeave) {
   const std::optional<Narrowing> narrowing =
       fit_of(MissedBench{{20}, {.3}}).parameters[0].narrowing;
@@ -143,7 +143,7 @@ fake::Runs check_runs(const Problem& problem, double reading) {
   return runs;
 }
 
-// The difference is the same, and means less.
+// The same difference is less significant.
 TEST(ModelError, MakesADifferenceLessOfASurpriseAndNoAgreement) {
   const auto check = [](double model_sd) {
     Problem problem = problem_of(MissedBench{{20}, {model_sd}});

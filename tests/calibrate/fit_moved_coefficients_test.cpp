@@ -17,9 +17,9 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 constexpr std::size_t kSliding =
-    4;  // of grain and grain: the heap tells it, once the rest is known
+    4;  // between grains: determined by the heap once the rest is known
 
-/// A bench whose heaps are of grains ten times stiffer than the study's: they are 2.5 degrees
+/// Laboratory heaps of grains ten times stiffer than those of the study, and so 2.5 degrees
 /// flatter. All coefficients but one are known beforehand.
 Problem of_stiff_bench() {
   Problem problem = fake::problem();
@@ -80,8 +80,8 @@ TEST_F(StifferCoefficients, AreAsUncertainAsTheChangesThatTheyTakeIntoAccount) {
   EXPECT_TRUE(holds_truth(unsure[kSliding].interval));
 }
 
-/// More spheres take half of every rebound. The bench's grains have these, the study's do not: its
-/// restitution comes out too low, and is put right although half is far from little.
+/// More spheres halve every rebound. The real grains have them, those of the study do not: the
+/// fitted restitution is too low, and is corrected although half is a large change.
 TEST(MovedCoefficients, AreThoseOfTheBenchWhereAChangeGoesWithTheReading) {
   constexpr int kRepeats = 40;
   const double truth = fake::kTruth[0];

@@ -20,7 +20,7 @@ fake::Runs runs_of_round(const Problem& problem) {
   return in_order(problem, fake::first_runs(problem));
 }
 
-/// The same jobs again, with other seeds.
+/// The same jobs again, with different seeds.
 fake::Runs twice(const fake::Runs& runs) {
   constexpr std::uint64_t kOtherSeeds = 500'000;
   std::vector<Job> jobs;
@@ -77,7 +77,7 @@ TEST(Narrowing, ForeseesWhatMoreReadingsDo) {
   const std::vector<double> before = widths(problem, runs);
   for (Observable& observable : problem.observables) observable.n *= 4;
   const std::vector<double> after = widths(problem, runs);
-  for (std::size_t j = 0; j < 3; ++j) {  // of grain and wall: determined
+  for (std::size_t j = 0; j < 3; ++j) {  // those of the wall: determined
     EXPECT_NEAR(after[j] / before[j], foreseen[j].readings, .15) << j;
   }
 }

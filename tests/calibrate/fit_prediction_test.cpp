@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 using fake::kTruth;
 
-/// Everything measured at the truth; one experiment is held out.
+/// Everything measured at the truth, one experiment held out.
 Problem holding_out(const std::string& experiment, std::uint64_t seed = 1) {
   Problem problem = fake::problem(kTruth, seed);
   for (const Observable& observable : problem.observables) {
@@ -35,7 +35,7 @@ JointFit fit_with(const std::vector<std::vector<double>>& drawn) {
   return fit;
 }
 
-/// A fit that knows the coefficients, but for the first, up to a standard deviation.
+/// A fit that knows the first coefficient within a standard deviation, the others exactly.
 JointFit fit_of(const std::vector<double>& middle, double sd, Random& random) {
   std::vector<std::vector<double>> drawn(kDrawnSets, middle);
   for (std::vector<double>& values : drawn) values.front() += sd * random.normal();
@@ -71,7 +71,7 @@ TEST(Prediction, IntervalsHoldTheReadingAsOftenAsTheySay) {
   for (std::uint64_t seed = 1; seed <= kMaterials; ++seed) {
     Random random(seed);
     std::vector<double> truth = kTruth;
-    truth.front() += kSd * random.normal();  // as uncertain as any of the drawn ones
+    truth.front() += kSd * random.normal();  // as uncertain as the drawn ones
     Problem problem = holding_out("drop", seed);
     problem.settings.seed = 1000 * seed;
     const Prediction prediction = predicted(problem, fit_of(kTruth, kSd, random));
@@ -125,7 +125,7 @@ TEST(Prediction, WhatTheBoundsAllowIsToldAndSetsTheMargin) {
   EXPECT_LT(prediction.possible->low, prediction.predicted - 5);
   EXPECT_GT(prediction.possible->high, prediction.predicted + 5);
   EXPECT_LE(prediction.tolerance, 2);
-  // A plate that slides at the same angle whatever its grains are.
+  // A plate that slides at the same angle whatever the grains.
   fake::Runs alike;
   for (const Job& job : prediction_jobs(problem, fit)) {
     alike.push_back({job, {{"value", problem.held_out.front().mean}}, ""});

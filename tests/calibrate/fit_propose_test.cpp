@@ -44,7 +44,7 @@ TEST(Propose, TheFirstRoundFillsTheBoundsAndRepeatsSomePlaces) {
   for (const Job& job : drops) {
     seeds.insert(job.seed);
     places.insert(job.values);
-    EXPECT_EQ(job.values[4], .425);  // the middle: without effect on a drop
+    EXPECT_EQ(job.values[4], .425);  // the middle: no effect on a drop
   }
   EXPECT_EQ(seeds.size(), drops.size());
   EXPECT_LT(places.size(), drops.size());
@@ -100,8 +100,8 @@ TEST(Propose, KeepsToTheMostJobs) {
   EXPECT_LE(fake::study(problem).size(), 60);
 }
 
-/// Of these jobs, those at coefficients of the wall that the cheap experiments leave plausible: one
-/// in thirty places of the whole box is.
+/// Number of these jobs with wall coefficients that the cheap experiments leave plausible, which is
+/// one in thirty of the whole box.
 std::ptrdiff_t on_plausible_walls(const std::vector<Job>& jobs) {
   return std::ranges::count_if(jobs, [](const Job& job) {
     return std::abs(job.values[0] - kTruth[0]) < .15 && std::abs(job.values[1] - kTruth[1]) < .06 &&
@@ -119,7 +119,7 @@ TEST(Propose, DearHeapsBeginOnWallsThatCheapExperimentsLeavePlausible) {
   const auto count = static_cast<std::ptrdiff_t>(heaps.size());
   EXPECT_GE(3 * on_plausible_walls(heaps), 2 * count);
   EXPECT_LT(on_plausible_walls(heaps), count) << "some are anywhere";
-  // Of what happens between grains nothing is known: all of it is tried.
+  // Nothing is known about contacts between grains, so their whole range is tried.
   for (const std::size_t j : {3U, 4U, 5U}) {
     const auto [low, high] =
         std::ranges::minmax(heaps, {}, [&](const Job& job) { return job.values[j]; });
@@ -152,7 +152,7 @@ TEST(Propose, ExperimentsThatAreKnownWellGetNoMoreRuns) {
 }
 
 TEST(Propose, EndsEarlyWhenNothingMovesAnyMore) {
-  // One straight reading without chance: the second round has nothing to add.
+  // One linear reading without random scatter: a second round has nothing to add.
   Problem problem;
   problem.parameters = {{"slope", .1, .8, {}}};
   problem.experiments = {{"tilt", {0}, .5, false, {}}};

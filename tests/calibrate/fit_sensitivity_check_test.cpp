@@ -25,7 +25,7 @@ Experiment& experiment_of(Problem& problem, const std::string& name) {
   return *std::ranges::find(problem.experiments, name, &Experiment::name);
 }
 
-/// Everything measured; the real grains of one experiment are stiffer than the study's.
+/// Everything measured; in one experiment the real grains are stiffer than those of the study.
 Problem softening(const std::string& experiment, double real_stiffness = 1000,
                   std::uint64_t seed = 1) {
   Problem problem = fake::problem(kTruth, seed);
@@ -42,7 +42,7 @@ void hold_out(const std::string& experiment, Problem& problem) {
                 [&](const Observable& observable) { return observable.experiment == experiment; });
 }
 
-/// As much of a fit as a check needs; it knows nothing of the scatter of runs.
+/// As much of a fit as a check needs, without the scatter of runs.
 JointFit fit_for_check(const Problem& problem) {
   JointFit fit;
   for (const Observable& observable : problem.observables) {
@@ -248,7 +248,7 @@ TEST(StiffnessCheck, RealGrainsAreNoSofterThanTheStudys) {
   EXPECT_THAT(error_of([&] { require_sound(problem); }), HasSubstr("real_stiffness = 0.5"));
 }
 
-/// Everything measured; the grain has eleven spheres of 200 that could follow its surface.
+/// Everything measured; the grain has eleven of the 200 spheres that could follow its surface.
 Problem of_a_clump(int spheres = 11) {
   Problem problem = fake::problem(kTruth, 1);
   problem.settings.budget_s = 1e6;

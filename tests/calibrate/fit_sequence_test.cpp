@@ -28,7 +28,7 @@ TEST(Sequence, AnyStretchOfItFillsACubeAndKeepsItsPointsApart) {
       points.push_back(x);
     }
     EXPECT_THAT(counts, ::testing::Each(::testing::Ge(4)));
-    EXPECT_GT(least, .15);  // points at random come as near as .03
+    EXPECT_GT(least, .15);  // random points come as close as .03
   }
 }
 

@@ -71,7 +71,7 @@ TEST(Surrogate, OnlyItsOwnParametersCount) {
 }
 
 TEST(Surrogate, IsLessSureWhereRunsScatterMoreThanElsewhere) {
-  // Hardly any noise over nine tenths, much near the end.
+  // Little noise over nine tenths of the range, much near the end.
   Surrogate surrogate(training_set(100,
                                    [](const Point& x, Random& random) {
                                      return x[0] + (x[0] > .9 ? 1. : .05) * random.normal();
@@ -88,7 +88,7 @@ TEST(Surrogate, NoiseKnownFromFewRunsCountsAsStudentSays) {
   const auto noisy = [](const Point& x, Random& random) { return x[0] + .3 * random.normal(); };
   const double few = Surrogate(training_set(8, noisy), {}, true).few_runs_factor();
   const double many = Surrogate(training_set(100, noisy), {}, true).few_runs_factor();
-  EXPECT_GT(few, 1.15);  // 8 degrees of freedom at most: 2.306 / 1.960
+  EXPECT_GT(few, 1.15);  // at most 8 degrees of freedom: 2.306 / 1.960
   EXPECT_LT(few, 1.63);
   EXPECT_GT(many, 1.01);
   EXPECT_LT(many, 1.02);

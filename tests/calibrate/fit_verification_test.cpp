@@ -120,7 +120,7 @@ TEST(Verification, ASetThatGivesNoReadingDisagrees) {
   EXPECT_EQ(result.observables[3].failed_runs, 3);
 }
 
-/// A fit that expects these readings at `kTruth`, and is as sure of them as a bench is.
+/// A fit as certain as the bench that predicts the true readings, the heap's shifted by `off`.
 JointFit fit_that_expects(const Problem& problem, double off) {
   JointFit fit;
   for (const double value : kTruth) fit.parameters.emplace_back().value = value;
@@ -150,7 +150,7 @@ TEST(SurrogateCheck, TellsWhoMissedItsOwnCheck) {
     wrongly += any(check_surrogates(problem, fit_that_expects(problem, 0), runs));
     found += check_surrogates(problem, fit_that_expects(problem, 3), runs)[3].misses;
   }
-  EXPECT_LE(wrongly, 12);  // 5 expected, and a little more of skewed rolling distances
+  EXPECT_LE(wrongly, 12);  // 5 expected, slightly more because rolling distances are skewed
   EXPECT_EQ(found, 100) << "three degrees";
 }
 

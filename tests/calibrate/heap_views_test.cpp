@@ -30,7 +30,7 @@ TakenView taken(const HeapViewing& viewing, int view = 0) {
   return HeapViewSession(nuts(), viewing).take(renderer, view);
 }
 
-/// Nothing dark on the picture's edge.
+/// Whether nothing dark touches the edge of the picture.
 bool has_white_edge(const vision::Picture& picture) {
   const auto is_dark = [&](int x, int y) {
     return picture.bgr[3 * (static_cast<std::size_t>(y) * picture.width + x)] < 128;
@@ -68,8 +68,8 @@ TEST(HeapViews, ACameraInTheHeapIsRefused) {
               AllOf(HasSubstr("distance_m is 0.02"), HasSubstr("Fix: ")));
 }
 
-/// The nearest grains' foot is seen under that of the middle's by the camera's height times
-/// nearness: with h = 40 mm, a distance of 1 m and a heap that comes r nearer, h r / (1 m - r).
+/// The foot of the nearest grains appears below that of the middle ones, by pinhole geometry: with
+/// h = 40 mm, a distance of 1 m and a heap that comes r nearer, by h r / (1 m - r).
 TEST(HeapViews, ANearCameraSeesTheFootInFrontBelowTheMiddlesByPinholeGeometry) {
   const auto height_m = [](const HeapViewing& viewing) {
     const HeapViewSession session(nuts(), viewing);
@@ -90,8 +90,8 @@ TEST(HeapViews, ANearCameraSeesTheFootInFrontBelowTheMiddlesByPinholeGeometry) {
   const double lower_m = .04 * reach_m / (1 - reach_m);
   const double seen_m =
       height_m({.views = 1, .camera = dem::LevelCamera{1, .04}}) - height_m({.views = 1});
-  // Grains are round: their lowest seen point lies a little behind or before their middle. And the
-  // crest is not in the middle plane to a grain.
+  // Grains are round: their lowest visible point lies slightly behind or in front of their centre,
+  // and the crest is only within a grain of the middle plane.
   EXPECT_NEAR(seen_m, lower_m, .25 * lower_m);
 }
 

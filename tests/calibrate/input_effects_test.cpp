@@ -27,7 +27,7 @@ using ::testing::SizeIs;
 
 constexpr double kHeight_mm = 400, kRelease_mm = 150, kSine = .342;
 
-/// A ball rebounds e^2 H; one rolls L sin(a) / c, by its energy.
+/// A ball rebounds to e^2 H; one rolls L sin(a) / c, by conservation of energy.
 double reading(const Job& job) {
   const auto by = [&](const char* input) {
     return job.inputs.step.input == input ? job.inputs.step.change : 0;
@@ -36,7 +36,7 @@ double reading(const Job& job) {
   return (kRelease_mm + by("release")) * kSine / job.values[1];
 }
 
-/// Run names something else inside of a gtest test.
+/// Inside a gtest test, Run names something else.
 using Runs = std::vector<Run>;
 
 Run closed_form_run(const Job& job) {
@@ -149,7 +149,7 @@ TEST_F(InputEffects, ByChanceEachRunIsComparedWithThatOfItsSeed) {
   for (int k = 0; k < 24; ++k) {
     checks.push_back(
         closed_form_run({.experiment = "drop", .values = {.5, .6}, .seed = 1000000000U + k}));
-    checks.back().readings["value"] += k * k;  // far more scatter than the change
+    checks.back().readings["value"] += k * k;  // much more scatter than the effect of the change
   }
   problem_.settings.budget_s = 50;
   std::vector<Job> jobs;

@@ -67,7 +67,7 @@ TEST(Bounce, RisesByItsSpeedSquaredByTwiceGravity) {
 TEST(Bounce, OfAGrainThatStaysOnTheWallIsNone) {
   const TemporaryFolder folder;
   EXPECT_FALSE(bounce_in(folder.write("drop_1.txt", "0 0.011 -1\n5 0.01 0\n10 0.0101 0.001\n")));
-  // One that topples is pushed by the wall: its speed does not fall evenly.
+  // A grain that topples is pushed by the wall: its speed does not decrease uniformly.
   EXPECT_FALSE(bounce_in(folder.write(
       "drop_2.txt", "0 0.011 -1\n5 0.01 0.3\n10 0.0101 0.2\n15 0.0102 0.15\n20 0.0102 -0.3\n")));
 }
@@ -95,7 +95,7 @@ TEST(DumpedGrains, HaveTheirCentresAndPoses) {
       grains_in(folder.write("a.dump", dump(2, ".1 .2 .3 0 0 0 2\n-1 0 1e-3 1 0 0 0\n")), false);
   ASSERT_EQ(clumps.size(), 2U);
   EXPECT_EQ(clumps[0].position, dem::Vector(.1, .2, .3));
-  EXPECT_EQ(clumps[0].orientation.z(), 1);  // of length 1
+  EXPECT_EQ(clumps[0].orientation.z(), 1);  // normalized to length 1
   EXPECT_EQ(clumps[1].orientation.w(), 1);
   const auto balls = grains_in(folder.write("b.dump", dump(1, "7 1 .1 .2 .3 .005\n")), true);
   ASSERT_EQ(balls.size(), 1U);

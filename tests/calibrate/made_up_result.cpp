@@ -72,7 +72,7 @@ SurfacePoint point(double x, double y) {
   return {.coded = {x, y}, .natural = {.5 + x / 2, .4 + y / 4}, .value = 3, .uncertainty = .5};
 }
 
-/// Over both coefficients.
+/// In both coefficients.
 SurfaceSummary surface() {
   const Variance variance{.sum_of_squares = 12.5, .df = 3, .f = 9.25, .p = .001};
   SurfaceFactor first{{.name = kRestitution, .low = 0, .high = 1}, {0, 1}, variance};
@@ -118,7 +118,7 @@ SurfaceSummary surface() {
           .warnings = {{.code = "ridge", .message = "a ridge"}}};
 }
 
-/// A drop as it was measured, fitted and checked.
+/// A drop with its measurement, fit and check.
 ResultObservable drop_result() {
   return {drop(),
           Agreement{.observable = "drop",
@@ -173,7 +173,7 @@ InputEffect higher_drop() {
           .not_varied = {"heap"}};
 }
 
-/// The sliding friction is told by rolls whose scatter nobody measured.
+/// Rolls whose scatter nobody measured determine the sliding friction.
 AssumedScatters assumed_rolls() {
   return {.readings = {{.observable = "roll", .fraction = .35}},
           .coefficients = {{.name = kRestitution,

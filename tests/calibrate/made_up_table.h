@@ -8,26 +8,26 @@
 
 #include "calibrate/fit/points.h"
 
-/// A table of runs of a made-up engine: angle and bulk density follow closed formulas, with chance.
+/// A table of runs of a made-up engine: angle and bulk density follow closed formulas, plus noise.
 namespace repose::calibrate::test {
 
-/// Sliding and rolling friction make the angle together; restitution has no part in it.
+/// Depends on sliding and rolling friction together, not on restitution.
 inline double angle_of(double sliding, double rolling) {
   return 6 + 52 * std::sqrt(sliding * (rolling + .05));
 }
 
-/// Another combination of them.
+/// Depends on another combination of the two.
 inline double density_of(double sliding, double rolling) {
   return 860 - 120 * sliding - 40 * rolling;
 }
 
-inline constexpr double kAngleNoise = .6;  // of single runs
+inline constexpr double kAngleNoise = .6;  // of a single run
 inline constexpr double kDensityNoise = 3;
 
 struct MadeUpTable {
   int rows = 30;
-  int repeats = 2;   ///< that a row is the mean of
-  double noise = 1;  ///< of chance, as a multiple
+  int repeats = 2;   ///< number of runs averaged in a row
+  double noise = 1;  ///< factor on the noise of angle and density
 };
 
 /// sliding 0.1 ... 0.7, rolling 0 ... 0.3, restitution 0.2 ... 0.8.
@@ -66,7 +66,7 @@ inline constexpr const char* kMadeUpParameters =
     "rolling = { min = 0, max = 0.3 }\n"
     "restitution = { min = 0.2, max = 0.8 }\n";
 
-/// At sliding .4 and rolling .13.
+/// The angle at about sliding .4 and rolling .13.
 inline constexpr double kMeasuredAngle = 20;
 
 inline std::string made_up_study(const std::string& more = "") {

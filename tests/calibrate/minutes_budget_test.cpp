@@ -24,13 +24,13 @@ class MinutesBudget : public ::testing::Test {
       : study_(dem::read_study(folder_.write("study.toml", test::kSphereStudy), {})),
         grain_(dem::build_grain(study_.grain)),
         problem_(problem_of(study_, grain_, budget_named("quick")).problem) {
-    // As if a drop took a minute, and a tilt a second.
+    // As if a drop took a minute and a tilt a second.
     for (const Experiment& experiment : problem_.experiments) {
       pace_[experiment.name] = (experiment.name == "drop" ? 60 : 1) / experiment.run_s;
     }
   }
 
-  /// On one core, all phases.
+  /// Total time of all phases on one core.
   double foreseen_minutes(const Budget& budget) const {
     const Problem problem = problem_of(study_, grain_, budget).problem;
     double seconds = 0;
@@ -44,7 +44,7 @@ class MinutesBudget : public ::testing::Test {
     return error_of([&] { budget_within(2, problem_, pace_, 1); });
   }
 
-  /// That a refusal names.
+  /// The minimum that a refusal names.
   static double least_minutes(const std::string& refusal) {
     const std::string option = "--minutes ";
     return std::stod(refusal.substr(refusal.find(option) + option.size()));

@@ -1,4 +1,4 @@
-// What a person says of a new study, and the study that it makes.
+// What a user enters for a new study, and the resulting study.
 #include "calibrate/start/new_request.h"
 
 #include <gmock/gmock.h>

@@ -159,7 +159,7 @@ TEST_F(NewStudyTest, SoftensNoExperimentWhoseReadingThatWouldChange) {
   EXPECT_EQ(dem::model_for(study, dem::experiment_of<dem::PendulumProtocol>()).stiffness_factor, 1);
 }
 
-// Beads of 6.5 MPa overlap so that a tube holds 2 % more of them, and of 65 MPa no more.
+// At 6.5 MPa beads overlap so much that a tube holds 2 % more of them; at 65 MPa they do not.
 TEST_F(NewStudyTest, FillsAreStiffEnoughForTheirDensityAndLackTheirRate) {
   const dem::Study study =
       written(study_of(grain("glass"), {dem::experiment_of<dem::FillProtocol>(),
@@ -172,7 +172,7 @@ TEST_F(NewStudyTest, FillsAreStiffEnoughForTheirDensityAndLackTheirRate) {
   EXPECT_THAT(text, HasSubstr("# Until it is added below: how fast it was poured is not said"));
 }
 
-// Without its rate a density is known to 3.5 % of itself at best.
+// If the pouring rate is unknown, a density is known to 3.5 % at best.
 TEST_F(NewStudyTest, AFillWithoutItsRateHasASystematicUncertainty) {
   written(study_of(grain("glass"), {dem::experiment_of<dem::DropProtocol>(),
                                     dem::experiment_of<dem::FillProtocol>()}));
@@ -222,7 +222,7 @@ TEST_F(NewStudyTest, HasTheTubeThatWasAskedFor) {
 
 TEST_F(NewStudyTest, IsWrittenWholeOrNotAtAll) {
   std::string name(252, 'a');
-  name += ".toml";  // longer than a file's name may be, and its folder's is not
+  name += ".toml";  // longer than a file name may be, although its folder's name is not
   const std::filesystem::path file = folder_.path() / name;
   const NewStudy study = study_of(grain("rice"), kAll);
   EXPECT_NE(error_of([&] { write_new_study(study, file); }), "");

@@ -1,4 +1,4 @@
-// Tables of runs with something odd in them: slips, points between thousands, thousands of columns.
+// Tables of runs with oddities: slips, points as thousands separators, thousands of columns.
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -37,7 +37,7 @@ class OddTables : public ::testing::Test {
 
 using OddReadings = OddTables;
 
-/// The table's rows with one cell changed.
+/// The rows with one cell replaced.
 std::string with_cell(const std::string& rows, int line, int column, const std::string& value) {
   std::istringstream lines(rows);
   std::string text, row;
@@ -72,7 +72,7 @@ TEST_F(OddReadings, ASlipIsNamedWithItsRow) {
                                              HasSubstr("It counts"))));
 }
 
-/// A spreadsheet that parts thousands by points, in a table whose other points are decimal ones.
+/// A spreadsheet with points as thousands separators, in a table that otherwise has decimal points.
 TEST_F(OddReadings, APointThatMayPartThousandsIsNamed) {
   const TableStudy of = study(test::made_up_study(test::kMeasuredDensity));
   constexpr int kDensity = 5;
@@ -82,7 +82,7 @@ TEST_F(OddReadings, APointThatMayPartThousandsIsNamed) {
   EXPECT_THAT(runs(of, rows).notes,
               Contains(AllOf(HasSubstr("density is 1.012 in line 4, 1.012 in line 9"),
                              HasSubstr("where a point parts thousands, write 1012"))));
-  // Far from what the thousandfold would be, or what all are like, it is just a number.
+  // A value not close to a thousandth of the others, or like all of them, is just a number.
   EXPECT_THAT(runs(of, with_cell(test::made_up_rows(), 4, kDensity, "9.125")).notes,
               Not(Contains(HasSubstr("parts thousands"))));
 }

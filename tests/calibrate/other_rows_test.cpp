@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// What is left of a table, and what was said.
+/// What remains of a table, and the messages.
 struct Left {
   std::vector<int> lines;
   OtherRows other;
@@ -65,7 +65,7 @@ TEST(OtherRows, MeanAndScatterWithoutALabelAreRefused) {
               AllOf(HasSubstr("a.csv:5: lines 5 to 6 look like mean, scatter"),
                     HasSubstr("Fix: delete them")));
   EXPECT_THAT(left_of("angle_deg\n22.1\n22.9\n23.1\n22.700\n").error, HasSubstr("a.csv:5: this"));
-  // In a language that nobody here knows.
+  // In a language that the program does not know.
   EXPECT_THAT(left_of("n,angle_deg\n1,22.1\n2,22.9\n3,23.1\nmeán-x,22.7\n").error,
               HasSubstr("a.csv:5: this last row looks like mean"));
   EXPECT_THAT(left_of("drop_mm,rebound_mm\n500,125\n500,131\n500,120\n500,125.33\n0,5.51\n",
@@ -91,10 +91,10 @@ TEST(OtherRows, HowManyThereAreMayStandAboveTheirMean) {
 TEST(OtherRows, ASlipOfThePenIsSaid) {
   EXPECT_THAT(left_of("angle_deg\n22\n23\n2.3\n22.5\n21\n22\n").other.notes,
               ElementsAre(HasSubstr("a.csv:4: angle_deg = 2.3 lies far from the other readings")));
-  // Mean and scatter, worked out wrongly, and a number of readings.
+  // Mean and scatter, both miscalculated, and the number of readings.
   EXPECT_THAT(left_of("angle_deg\n22.1\n22.9\n23.1\n21.5\n22.6\n0.73\n4\n").other.notes,
               ElementsAre(HasSubstr("a.csv:7"), HasSubstr("a.csv:8")));
-  // Most grains stay, and some rebound far.
+  // Most grains do not rebound, some rebound far.
   EXPECT_THAT(left_of("x\n0\n0\n12.5\n0\n41\n0\n0\n55\n3\n0\n", {"x"}).other.notes, IsEmpty());
 }
 
@@ -107,7 +107,7 @@ TEST(OtherRows, RadiansAndFractionsAreSaid) {
 }
 
 TEST(OtherRows, RepeatedReadingsAreNoStatistics) {
-  // The last is the least, the median and one of the readings.
+  // The last value is the minimum, the median and one of the readings.
   for (const char* text :
        {"angle_deg\n0.51\n48.10\n51.65\n0.51\n0.51\n0.51\n", "angle_deg\n22\n23\n22\n23\n",
         "angle_deg\n22.5\n22.5\n22.5\n22.5\n", "angle_deg\n22.1\n22.9\n23.1\n22.4\n"}) {

@@ -1,4 +1,4 @@
-// Files of particles of other programs: each kind read back, what is wrong with them, and the heap.
+// Particle files of other programs: reading each kind, errors in them, and the heap.
 #include "calibrate/particles/particles.h"
 
 #include <cmath>
@@ -47,7 +47,7 @@ class ParticleFiles : public ::testing::Test {
                     const ParticleReading& reading = {}) const {
     return error_of([&] { read(name, text, reading); });
   }
-  /// In whatever unit, as far as the file's digits go.
+  /// The same in any unit, to the precision of the file.
   static void expect_same(const Particles& read, const Spheres& spheres) {
     ASSERT_EQ(read.spheres.size(), spheres.size());
     for (std::size_t k = 0; k < spheres.size(); ++k) {
@@ -240,7 +240,7 @@ TEST_F(ParticleFiles, FaultsNameThePlace) {
   EXPECT_THAT(fault("a.csv", uneven), HasSubstr("has 2 numbers"));
 }
 
-/// A file that is cut anywhere is refused or, of several steps, an earlier one can be named.
+/// A truncated file is rejected; if it has several steps, an earlier one can be selected.
 TEST_F(ParticleFiles, ACutFileIsRefused) {
   const Spheres few(heap_.begin(), heap_.begin() + 20);
   const std::vector<std::pair<std::string, std::string>> files = {
@@ -346,7 +346,7 @@ TEST_F(StandingHeapTest, ClumpsHangTogetherByTheirNumber) {
   EXPECT_EQ(heap.spheres, 2 * heap_.size());
 }
 
-/// Many sizes are drawn in classes, none of which is off by more than it may be.
+/// Many sizes are drawn as size classes, each within tolerance.
 TEST_F(StandingHeapTest, ManySizesMakeFewShapes) {
   Spheres mixed = heap_;
   for (std::size_t k = 0; k < mixed.size(); ++k) {
@@ -362,7 +362,7 @@ TEST_F(StandingHeapTest, ManySizesMakeFewShapes) {
   }
 }
 
-/// The cone's angle is what it was packed in.
+/// The cone's angle is the one it was packed at.
 TEST(PositionsAngle, OfAPackedConeIsTheCones) {
   const TemporaryFolder folder;
   for (const double angle_deg : {22., 31.}) {
@@ -381,7 +381,7 @@ TEST(PositionsAngle, OfAPackedConeIsTheCones) {
   }
 }
 
-/// The angle needs no unit, and is the same to the last digit in any; sizes need one.
+/// The angle needs no unit, and is the same to .1 degrees with one; sizes need one.
 TEST(PositionsAngle, NeedsNoUnit) {
   const TemporaryFolder folder;
   const Spheres cone = packed_cone(27, .03, .002);

@@ -1,4 +1,4 @@
-// The pictures of a bench's heaps as a set.
+// Photographs of measured heaps as a set.
 
 #include "calibrate/experiment/picture_set.h"
 
@@ -39,7 +39,7 @@ TEST(PictureSet, AFlaggedWrongObjectAmongHeapsIsNamedAndNotAveraged) {
 }
 
 // Iglewicz and Hoaglin's score by hand: median 22.45; |x - m| .95 .45 .45 28.75; MAD .7; 1.4826 MAD
-// is above the pictures' own .5.
+// exceeds the pictures' own .5.
 TEST(PictureSet, TheScoreIsTheModifiedZScore) {
   const PictureSet set = set_of_pictures(
       std::vector<SetPicture>{picture(21.5), picture(22), picture(22.9), picture(51.2)});
@@ -75,7 +75,7 @@ TEST(PictureSet, PicturesOfOneHeapAreOneHeap) {
 }
 
 // The set above by hand: w^2 = (2 + 2) / 2; s^2 = (1 + 1 + 4 + 4) / 3, of which w^2 (1/2 + 1 + 1/2
-// + 1) / 4 comes from the pictures; Student's quantile of two degrees of freedom from a table.
+// + 1) / 4 comes from the pictures; Student's quantile for two degrees of freedom from a table.
 TEST(PictureSet, WhatPicturesScatterByIsToldFromWhatHeapsDo) {
   using enum MeasureStatus;
   const PictureSet set = set_of_pictures(
@@ -99,7 +99,7 @@ TEST(PictureSet, OneHeapFromManySidesHasAnIntervalButNoScatterOfHeaps) {
   const PictureSet set = set_of_pictures(views);
   EXPECT_FALSE(set.between_sd_deg);
   ASSERT_THAT(set.heaps, SizeIs(1));
-  constexpr double kStudent5 = 2.5706;  // of six pictures, variance 3.5
+  constexpr double kStudent5 = 2.5706;  // for six pictures, variance 3.5
   EXPECT_NEAR(set.heaps[0].within_deg.value(), kStudent5 * std::sqrt(3.5 / 6) + .5, 1e-4);
 }
 

@@ -31,7 +31,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Lt;
 
-// Two parameters from 0 to 1. Experiments read 100 and what they add for these.
+// Two parameters from 0 to 1. Experiments read 100 plus the effect of these.
 constexpr double kBase = 100, kSlope = 40, kScatter = .05;
 
 double expected_reading(const std::string& experiment, const std::vector<double>& values) {
@@ -39,7 +39,7 @@ double expected_reading(const std::string& experiment, const std::vector<double>
   if (experiment == "first" || experiment == "jams") return kBase + kSlope * a;
   if (experiment == "second") return kBase + kSlope * b;
   if (experiment == "sum") return kBase + kSlope / 2 * (a + b);
-  return kBase;  // dull
+  return kBase;  // uninformative
 }
 
 Problem problem_with(const std::vector<std::string>& experiments) {
@@ -78,7 +78,7 @@ Foresight foresight_of(const Problem& problem, int readings = 10) {
   return {problem, runs_of(problem), readings};
 }
 
-/// Ten readings of it, of the material in the middle.
+/// Ten readings, of the material at the centre of the box.
 Observable measured(const std::string& experiment) {
   Observable observable;
   observable.name = observable.experiment = experiment;
@@ -98,12 +98,12 @@ std::vector<std::string> planned(const Foresight& foresight) {
 
 TEST(Foresight, AnIntervalIsThatOfAStraightLineThroughReadingsThatScatterByFivePercent) {
   const DesignForecast outlook = foresight_of(problem_with({"first"})).with({0});
-  // Evenly spread from 0 to 1: a variance of 1/12. Single readings of 120 scatter by 6.
+  // Uniform from 0 to 1: a variance of 1/12. Single readings of 120 scatter by 6.
   const double u = .05 * (kBase + kSlope / 2) / std::sqrt(10.) / kSlope;
   const double sd = 1 / std::sqrt(12 + 1 / (u * u));
   EXPECT_NEAR(outlook.widths[0], 2 * 1.96 * sd, .01);
   EXPECT_GT(outlook.widths[1], .75) << "nothing was read of it";
-  // Inside both bounds, and no wider than a quarter of the value to either side.
+  // Within both bounds, and at most a quarter of the value to either side.
   const double half = 1.96 * sd;
   EXPECT_NEAR(outlook.determined[0], 1 - half - 4 * half, .1);
   EXPECT_LT(outlook.determined[1], .1);
@@ -132,7 +132,7 @@ TEST(Foresight, AnEffectIsTheChangeFromBoundToBoundOverItsUncertainty) {
 TEST(Foresight, WhatReadingsHaveInCommonIsNotLoweredByMoreOfThem) {
   Problem problem = problem_with({"first"});
   problem.experiments[0].systematic_fraction = .05;
-  // As much as a single reading scatters by: ten of them halve nothing.
+  // As large as the scatter of a single reading: averaging ten hardly helps.
   const double u = .05 * (kBase + kSlope / 2) * std::sqrt(1 + 1 / 10.) / kSlope;
   EXPECT_NEAR(foresight_of(problem).with({0}).widths[0], 2 * 1.96 / std::sqrt(12 + 1 / (u * u)),
               .05);
@@ -216,7 +216,7 @@ TEST_F(OfferedStudyTest, LinesForTheStudyFileAreReadAsTheExperimentThatWasPlanne
   for (const auto& [experiment, described] : made.added) {
     const std::string section = study_section(*experiment, described);
     EXPECT_THAT(section, HasSubstr("measured = { readings = \""));
-    text += section.substr(0, section.find("measured = "));  // the sheet is yet to be filled in
+    text += section.substr(0, section.find("measured = "));  // before the sheet is filled in
   }
   const dem::Study read = study_of(text);
   for (const auto& [experiment, described] : made.added) {

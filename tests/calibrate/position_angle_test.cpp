@@ -47,7 +47,7 @@ TEST(PositionAngle, DoesNotDependOnWhereTheHeapStands) {
 }
 
 TEST(PositionAngle, TheFirstViewIsThatAlongY) {
-  // A ridge along y: from there 30 degrees, from the side a wall.
+  // A ridge along y: seen along y 30 degrees, from the side a wall.
   std::vector<ClumpSphere> ridge;
   for (int i = -50; i <= 50; ++i) {
     const double top = .06 - std::abs(i) * 2e-3 * std::tan(30 * kDegree);
@@ -60,7 +60,7 @@ TEST(PositionAngle, TheFirstViewIsThatAlongY) {
 
 TEST(PositionAngle, BelievesTheFlankMoreThanStrayGrainsOnIt) {
   std::vector<ClumpSphere> heap = sphere_cone(25, .06, .002);
-  // Seen along y, one grain stands out of the right flank at half height.
+  // Seen along y, one grain sticks out of the right flank at half height.
   heap.push_back({.centre = {.06, 0, .036}, .radius = .003});
   EXPECT_NEAR(angle_of(heap, 1).angle_deg.value(), 25, .5);
 }
@@ -69,23 +69,23 @@ TEST(PositionAngle, AGrainLyingAtTheFootChangesNothing) {
   std::vector<ClumpSphere> heap = sphere_cone(25, .06, .002);
   const double alone = angle_of(heap, 1).angle_deg.value();
   heap.push_back({.centre = {.12, 0, .009}, .radius = .009});
-  // But for the columns, which go with the mean radius.
+  // Apart from the columns, whose width depends on the mean radius.
   EXPECT_NEAR(angle_of(heap, 1).angle_deg.value(), alone, .01);
 }
 
 TEST(PositionAngle, LeavesAnApronOut) {
   std::vector<ClumpSphere> heap = sphere_cone(25, .06, .002);
-  // A layer a third as high as the heap runs out from its foot at .129 m to .2 m.
+  // A layer a third as high as the heap extends from its foot at .129 m to .2 m.
   for (int k = -50; k <= 50; ++k) {
     heap.push_back({.centre = {k * 4e-3, 0, .009}, .radius = .009});
   }
-  // A line through all of it has 16 degrees.
+  // A line through all of it is at 16 degrees.
   EXPECT_NEAR(angle_of(heap, 1).angle_deg.value(), 25, .3);
 }
 
 TEST(PositionAngle, AHollowFootOfFewLargeGrainsCountsMoreThanTheFlankAboveIt) {
   // Five grains high, 35 degrees above half its height and 14 below: too few grains to tell such a
-  // foot from an apron. The line through both has 18.1 degrees, that of the upper half 31.
+  // foot from an apron. The line through both is at 18.1 degrees, that of the upper half at 31.
   constexpr double kGrainRadius = .008;
   const double steep = std::tan(35 * kDegree);
   const double flat = std::tan(14 * kDegree);
@@ -113,7 +113,7 @@ TEST(PositionAngle, MeasuresBothSidesOfALopsidedHeap) {
 }
 
 TEST(PositionAngle, ALayerHasNone) {
-  // It falls at its rim alone.
+  // It slopes only at its rim.
   const PositionAngle angle = angle_of(sphere_frustum(45, .02, .2, .001));
   EXPECT_EQ(angle.flanks, 0);
   EXPECT_FALSE(angle.angle_deg);
@@ -122,7 +122,7 @@ TEST(PositionAngle, ALayerHasNone) {
   EXPECT_FALSE(angle.between_views_deg);
 }
 
-/// Grains as they stood in the tube, 32 of them on top of each other.
+/// Grains as they stood in the tube, 32 on top of each other.
 std::vector<ClumpSphere> column() {
   std::vector<ClumpSphere> grains;
   for (int layer = 0; layer < 32; ++layer) {
@@ -144,7 +144,7 @@ TEST(PositionAngle, AColumnThatStandsHasNone) {
 }
 
 TEST(PositionAngle, OneSideThatLeansIsNoHeap) {
-  // Grains that came off one side lie against it; all others are still upright.
+  // Grains that came off one side lean against it; all others are still upright.
   std::vector<ClumpSphere> heap = column();
   for (int i = 1; i <= 60; ++i) {
     const double x = 5e-3 + 1e-3 * i;
@@ -165,7 +165,7 @@ TEST(PositionAngle, ASingleViewHasNoScatterBetweenViews) {
 }
 
 TEST(PositionAngle, TheBaseOfALayerEndsNearItsGrains) {
-  // Its top falls by a quarter of its height over .2 m: a line that would meet the ground at .8 m.
+  // Its top falls by a quarter of its height over .2 m: such a line meets the ground at .8 m.
   std::vector<ClumpSphere> layer;
   for (int i = -50; i <= 50; ++i) {
     for (int j = -50; j <= 50; ++j) {
@@ -233,7 +233,7 @@ TEST(PositionAngle, CompletesAHeapsReadings) {
 TEST(PositionAngle, OfALayerNothingIsRead) {
   RunResult layer;
   layer.envelopes = dem::heap_envelopes(sphere_cone(25, .06, .002), 18);
-  layer.readings["no_heap"] = 1;  // its grains are that large
+  layer.readings["no_heap"] = 1;  // as if its grains were that large
   add_position_angle(layer);
   EXPECT_FALSE(layer.value);
   for (const char* name :

@@ -19,7 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::TemporaryFolder;
 
-/// A shell script in place of a simulator: its reading is the number in reading.txt.
+/// A shell script instead of a simulator: its reading is the number in reading.txt.
 class Scripted : public ProgramSimulator {
  public:
   explicit Scripted(std::string script, std::optional<double> timeout_s = {})
@@ -90,7 +90,7 @@ TEST_F(ProgramSimulatorTest, FailureSaysHowItEndedAndWhatItPrintedAndKeepsItsFol
               AllOf(HasSubstr("work: the script failed: exit code 3"), HasSubstr("output.txt"),
                     HasSubstr("the last line"), HasSubstr("Fix:")));
   EXPECT_TRUE(fs::exists(work_ / "seed.txt"));
-  // The next attempt begins anew.
+  // The next attempt starts afresh.
   EXPECT_EQ(run(Scripted("cp seed.txt reading.txt")).value, 7);
 }
 

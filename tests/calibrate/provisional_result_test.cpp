@@ -30,7 +30,7 @@ class ProvisionalResult : public ::testing::Test {
     return base::read_whole_file(in(name) / kResultFile);
   }
 
-  /// Until so many rounds are complete; 0: to the end.
+  /// Stops after `rounds` complete rounds; 0 runs to the end.
   std::optional<StudyResult> calibrate(const std::string& name, std::size_t rounds) const {
     std::atomic<bool> is_interrupted = false;
     const StudyWatch watch{.report =

@@ -40,7 +40,7 @@ measured = { mean = 320, sd = 30, n = 10 }
 measured = { mean = 21, sd = 0.7, n = 10 }
 )";
 
-/// Formulas in place of simulations.
+/// Formulas instead of simulations.
 class FormulaExecutor : public Executor {
  public:
   int workers() const override { return 1; }
@@ -103,7 +103,7 @@ TEST_F(PublishedMethod, ClimbsToTheBestStepAndFitsTheErrorAroundIt) {
   const auto outcome = calibrate();
   ASSERT_TRUE(outcome);
   ASSERT_THAT(outcome->ascent, SizeIs(5));
-  // 10 + 3 k + 2 k = 21: between the second and the third step, nearer to the second.
+  // 10 + 3 k + 2 k = 21: between the second and third step, nearer to the second.
   EXPECT_EQ(outcome->best_step, 1U);
   EXPECT_THAT(outcome->composite, SizeIs(20));
   EXPECT_THAT(outcome->surface.fit.coefficients, SizeIs(10));

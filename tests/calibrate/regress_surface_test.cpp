@@ -17,8 +17,8 @@ using ::testing::Contains;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// The surface y(u) on the points of a central composite design, with scatter of +-noise that
-/// repeats differ by.
+/// The surface y(u) at the points of a central composite design, with alternating deviations of
+/// +-noise.
 template <typename Surface>
 RunTable runs_on(const std::vector<Factor>& factors, const Surface& surface, double noise) {
   RunTable table;
@@ -59,7 +59,7 @@ TEST(CanonicalForm, HazelnutStudysSurfaceIsASaddle) {
   ASSERT_TRUE(form && form->stationary);
   ASSERT_EQ(form->axes.size(), 3U);
   EXPECT_EQ(form->shape, SurfaceShape::saddle);
-  // Twice these are the Hessian's eigenvalues.
+  // Twice these values are the Hessian's eigenvalues.
   EXPECT_NEAR(2 * form->axes[0].curvature, -.346, 5e-4);
   EXPECT_NEAR(2 * form->axes[1].curvature, 9.21, 5e-3);
   EXPECT_NEAR(2 * form->axes[2].curvature, 27.9, 5e-2);
@@ -227,7 +227,7 @@ TEST(Target, OneFactorsParabolaIsSolved) {
   ASSERT_TRUE(crossing.interval[0] && crossing.interval[1]);
   EXPECT_GT(*crossing.interval[1] - *crossing.interval[0], 2e-4);
   EXPECT_LT(*crossing.interval[1] - *crossing.interval[0], .02);
-  // It says that rebounds are negative near e = .1: the study's own quadratic does.
+  // Rebounds predicted near e = .1 are negative, as with the study's own quadratic.
   EXPECT_LT(extremes_in_box(regression).least.value, 0);
   ASSERT_EQ(set.ranges.size(), 1U);
   EXPECT_EQ(set.ranges[0].size(), 1U);
@@ -291,7 +291,7 @@ TEST(Target, RangesHoldTheWholeSet) {
     EXPECT_NEAR(ranges[0][0], -1, 1e-6);
     EXPECT_NEAR(ranges[0][1], 1, 1e-6);
   }
-  // Beyond 2, the set is four corners: each factor has two intervals.
+  // Above 2 the set consists of four corners: each factor has two intervals.
   const TargetSet corners = solve_target(regression, {3});
   for (const auto& ranges : corners.ranges) {
     ASSERT_EQ(ranges.size(), 2U);
@@ -350,7 +350,7 @@ TEST(SurfaceDiagnostics, ASmoothResponseThatTouchesZeroIsNoAbsoluteError) {
   EXPECT_THAT(codes_of(fit(runs_on(kTwo, bowl, .05))), Not(Contains("absolute_error")));
   const auto kink = [](const std::vector<double>& u) { return std::abs(20 * u[0] + 3 * u[1]); };
   EXPECT_THAT(codes_of(fit(runs_on(kTwo, kink, 0))), Contains("absolute_error"));
-  // The same with its sign.
+  // The same without the absolute value.
   const auto plane = [](const std::vector<double>& u) { return 20 * u[0] + 3 * u[1]; };
   EXPECT_THAT(codes_of(fit(runs_on(kTwo, plane, .1))), Not(Contains("absolute_error")));
 }

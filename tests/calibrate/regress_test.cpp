@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// As many digits as the study prints.
+/// As many digits as printed in the study.
 constexpr double kFourDigits = 5e-4;
 
 void expect_digits(double value, double expected, double relative = kFourDigits) {
@@ -56,7 +56,7 @@ TEST(Regression, HazelnutStudysCoefficientsErrorsAndPValues) {
 
 TEST(Regression, HazelnutStudysAnalysisOfVariance) {
   const Regression fit = regress(hazelnut_runs(), SurfaceModel::quadratic);
-  EXPECT_NEAR(fit.r2, .958624, 1e-6);  // printed cut, not rounded
+  EXPECT_NEAR(fit.r2, .958624, 1e-6);  // printed truncated, not rounded
   EXPECT_NEAR(fit.r2_adjusted, .9214, 5e-5);
   EXPECT_NEAR(*fit.explained.f, 25.743, 5e-4);
   expect_digits(*fit.explained.p, 9.167e-6);
@@ -258,7 +258,7 @@ TEST(Regression, WhatTheDesignCannotTellApartIsNamed) {
               AllOf(HasSubstr("cannot tell"), HasSubstr("Fix: ")));
   EXPECT_EQ(regression_error(two_levels, SurfaceModel::linear), "");
 
-  // Steepest ascent: the factors go up together.
+  // Steepest ascent: the factors increase together.
   RunTable together = line({0, .1, .2, .3, .4}, {1, 2, 4, 3, 5});
   together.factors = {{"a", 0, .4}, {"b", 0, .04}};
   together.levels.push_back({0, .01, .02, .03, .04});

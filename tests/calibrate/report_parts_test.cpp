@@ -89,7 +89,7 @@ TEST(Page, TextsStayTexts) {
   const std::string page = html.substr(0, html.find("<script type=\"application/json\""));
   EXPECT_THAT(page, Not(HasSubstr("<script>")));
   EXPECT_THAT(page, Not(HasSubstr("'\"><")));
-  EXPECT_THAT(page, HasSubstr("\n&lt;pre&gt;"));  // lines to be copied stay lines
+  EXPECT_THAT(page, HasSubstr("\n&lt;pre&gt;"));  // lines to be copied remain lines
   EXPECT_THAT(charts_json(document), Not(HasSubstr("<")));
 }
 
@@ -167,7 +167,7 @@ TEST(HeapModel, SpheresStaySpheres) {
     EXPECT_NEAR(std::hypot(x, y, z), 10, 1e-9);
   }
   EXPECT_EQ(grains, 3);
-  EXPECT_EQ(corners, 66);  // an octahedron divided twice
+  EXPECT_EQ(corners, 66);  // an octahedron subdivided twice
 }
 
 TEST(HeapModel, OfLargeHeapsTheTopIsKept) {

@@ -42,7 +42,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text;
 }
 
-/// What stands before the scripts: text, tables, pictures.
+/// The part before the scripts: text, tables, pictures.
 std::string page_of(const Report& report) {
   return report.html.substr(0, report.html.find("<script type=\"application/json\""));
 }
@@ -202,8 +202,8 @@ TEST_F(StudyReport, ShowsEachCurveOnceTheMostTellingBeforeTheAppendix) {
 TEST_F(StudyReport, PlusMinusIsTheHalfWidthOfThe95PercentInterval) {
   const Report report = study_report(result_);
   EXPECT_THAT(page_of(report), Not(HasSubstr("± sd")));
-  // Six readings of sd 1: 2.57 times .414, by Student, and 1.96 times the .28 that they share.
-  // Three checks: 4.30 times .3. The fit: 1.96 times .2.
+  // Six readings of sd 1: 2.57 times .414 (Student) and 1.96 times the common .28. Three checks:
+  // 4.30 times .3. The fit: 1.96 times .2.
   EXPECT_THAT(table_in(report, "agreement.csv"),
               HasSubstr("rebound height [mm],25,1.19795,25.1,0.391993,25.4,1.2908,"));
 }
@@ -264,7 +264,7 @@ TEST_F(StudyReport, CurvesHaveRunsFitAndMeasuredValue) {
   EXPECT_THAT(csv, HasSubstr("simulated runs,0.2,7,,\n"));
   EXPECT_THAT(csv, HasSubstr("fit,0.1,1,,\n"));
   EXPECT_THAT(csv, HasSubstr("95 % interval of the fit,0.1,,0.804004,1.196\n"));
-  EXPECT_THAT(csv, HasSubstr("95 % interval of the fit,0.9,,,\n"));  // its uncertainty is not known
+  EXPECT_THAT(csv, HasSubstr("95 % interval of the fit,0.9,,,\n"));  // its uncertainty is unknown
   EXPECT_THAT(csv, HasSubstr("\"measured, 95 %\",0.1,25,24.02,25.98\n"));
   EXPECT_THAT(csv, HasSubstr("best fit,0.4,25.1,0.35,0.45\n"));
 }

@@ -166,7 +166,7 @@ TEST(Result, ErrorsSayWhatIsWrongAndWhere) {
   }
 }
 
-// Whatever becomes of the text, it is read or refused.
+// However the text is damaged, it is either read or rejected.
 TEST(Result, DamagedTextIsNeverMoreThanRefused) {
   for (const StudyResult& result : both()) {
     const std::string text = to_json(result);
@@ -311,7 +311,7 @@ Verification disagreeing(const std::vector<int>& runs, double chance) {
   return check;
 }
 
-/// Four experiments: three agree, of the last is not known.
+/// Four experiments: three agree, the last is undecided.
 Verification inconclusive(const Agreement& open) {
   Verification check{.values = {}, .observables = {}, .chance = .98};
   check.verdict = AgreementVerdict::cannot_tell;

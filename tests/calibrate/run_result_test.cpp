@@ -98,7 +98,7 @@ TEST(RunResult, SaysWhyGrainsMakeNoHeap) {
 }
 
 TEST(RunResult, ZerosThatEarlierVersionsWroteForNoAngleAreNone) {
-  // A column stood, and 0 was written for each of its angles.
+  // For a column, earlier versions wrote 0 for each angle.
   RunResult column = simulated_heap(0, 0);
   for (const char* name : {"angle_xz_deg", "inner_window_deg", "base_radius_mm"}) {
     column.readings[name] = 0;
@@ -108,11 +108,11 @@ TEST(RunResult, ZerosThatEarlierVersionsWroteForNoAngleAreNone) {
   EXPECT_THAT(read.failure, HasSubstr("stand 64 mm high"));
   EXPECT_THAT(read.readings, Contains(Pair("angle_xz_deg", std::nullopt)));
   EXPECT_THAT(readings_of(read), IsEmpty());
-  // A layer had the angle of its edge.
+  // For a layer, they wrote the angle of its edge.
   const RunResult layer = run_in(text_of(simulated_heap(23.8, 1)));
   EXPECT_THAT(layer.failure, HasSubstr("spread to a layer"));
   EXPECT_FALSE(value_of(layer));
-  // A heap that has an angle keeps it, and a drop that does not rebound its 0.
+  // A heap with an angle keeps it, and a drop without rebound keeps its 0.
   EXPECT_EQ(value_of(run_in(text_of(simulated_heap(20, 0)))), 20);
   RunResult drop;
   drop.value = 0;
@@ -121,7 +121,7 @@ TEST(RunResult, ZerosThatEarlierVersionsWroteForNoAngleAreNone) {
   EXPECT_EQ(value_of(run_in(text_of(drop))), 0);
 }
 
-/// Seen from two sides as 24 degrees, and by a line along the whole flank as 21.
+/// 24 degrees in both views, or 21 by a line along the whole flank.
 RunResult defined_heap() {
   RunResult run = simulated_heap(20, 0);
   run.views = {seen(MeasureStatus::ok, 24), seen(MeasureStatus::ok, 24)};

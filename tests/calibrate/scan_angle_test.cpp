@@ -42,12 +42,12 @@ vision::ScannedHeap scan_of(const ScanDraft& draft, std::optional<double> unit_m
   return vision::measure_scan(scan, {.unit_mm = unit_mm});
 }
 
-/// A cone on an ellipse.
+/// A cone with an elliptical base.
 double oval_cone(double x, double y) {
   return std::max(0.0, kHeight * (1 - std::hypot(x / kLong, y / kShort)));
 }
 
-/// Where its silhouette ends, seen along the ground: the support function of the ellipse.
+/// Where its silhouette ends, viewed horizontally: the support function of the ellipse.
 double seen_reach(double azimuth_rad) {
   return std::hypot(kLong * std::cos(azimuth_rad), kShort * std::sin(azimuth_rad));
 }
@@ -83,7 +83,7 @@ TEST(ScanAngle, OfAnOvalConeItIsNotThatOfItsSlices) {
   const double silhouettes_deg = mean_over_views_deg(seen_reach);
   const double slices_deg = mean_over_views_deg(slice_reach);
   ASSERT_GT(std::abs(slices_deg - silhouettes_deg), .3);
-  // All sides of an oval are there, and their scatter is in the interval as that of views is.
+  // All sides of an oval are present, so their scatter is part of the interval, like that of views.
   EXPECT_NEAR(to_degrees(seen.angle.angle_rad.value()), silhouettes_deg, .2);
   EXPECT_NEAR(to_degrees(scan.angle.angle_rad.value()), slices_deg, .2);
   for (int view = 0; view < kHeapViews; ++view) {
@@ -124,7 +124,7 @@ TEST(ScanAngle, OfARefusedScanThereIsTheReason) {
 }
 
 TEST(ScanAngle, IsByTheDefinitionThatIsNamed) {
-  // A hollow flank: the chord from crest to foot is flatter than the window's line is steep.
+  // A concave flank: the chord from crest to foot is flatter than the line in the window.
   const auto hollow = [](double x, double y) {
     const double part = std::max(0.0, 1 - std::hypot(x, y) / 160);
     return kHeight * std::pow(part, 1.3);
@@ -139,7 +139,7 @@ TEST(ScanAngle, IsByTheDefinitionThatIsNamed) {
   EXPECT_GT(std::abs(*chord.angle.angle_rad - usual.angle.angle_rad.value()), .5 * kDegree);
 }
 
-/// A study whose bench has scans.
+/// A study with scans of the measured heap.
 class ScannedBench : public ::testing::Test {
  protected:
   ScannedBench() {

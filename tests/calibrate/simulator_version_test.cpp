@@ -19,7 +19,7 @@ namespace {
 
 using repose::testing::TemporaryFolder;
 
-/// Soft grains of two spheres, rough enough for a heap of 240 that can be seen: some seconds.
+/// Soft grains of two spheres, rough enough for a visible heap of 240: takes a few seconds.
 const std::string kStudyOfAllExperiments =
     repose::testing::kSoftNuts + repose::testing::kRoughContacts + R"([experiment.drop]
 height_mm = 50
@@ -54,19 +54,19 @@ fill_mm = 92
 drop_mm = 175
 )";
 
-/// What kSimulatorVersion gives for the runs above: a fingerprint of all readings of the usual
-/// experiments, and one of those of the others.
+/// Expected for kSimulatorVersion from the runs above: fingerprints of all readings of the usual
+/// experiments, and of those of the others.
 constexpr std::string_view kSimulatorReadings = "760116b8-d7de-5b3d-81b4-4f61497c97dd";
 constexpr std::string_view kOtherReadings = "f0fa1305-1b13-586d-bad1-a5ac10e6b6a0";
 
-/// Ten digits, none beyond the ninth decimal: there the libraries of two machines may differ.
+/// Ten digits; 0 below 1e-9, as there the libraries of two machines may differ.
 std::string ten_digits(double value) {
   return fmt::format("{:.9e}", std::abs(value) < 1e-9 ? 0 : value);
 }
 
 std::string line_of(const RunResult& run) {
   std::string line = "value " + ten_digits(run.value.value());
-  // Drawing and measuring differ in edge pixels from one kind of processor to the next.
+  // Drawing and measuring differ in edge pixels between types of processor.
   const auto seen = [](double value) { return fmt::format("{:.2f}", value); };
   for (const auto& [name, value] : run.readings) {
     const bool is_seen = name == "upper_angle_deg" || name == "lower_angle_deg";
@@ -77,7 +77,7 @@ std::string line_of(const RunResult& run) {
   return line;
 }
 
-/// Whether the study gives the key without which there is no such reading.
+/// Whether the study gives the key that the reading requires.
 bool has_key(const dem::Study& study, const dem::ExperimentEntry& entry, std::string_view needed) {
   if (needed.empty()) return true;
   dem::Protocol protocol = study.experiments.at(&entry).protocol;

@@ -31,7 +31,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using testing::TemporaryFolder;
 
-/// Programs of these tests alone in PATH, beside the shell's own.
+/// Makes only the programs of these tests available in PATH, plus the shell's builtins.
 class OnlyPrograms {
  public:
   OnlyPrograms() : before_(std::getenv("PATH")) {
@@ -74,7 +74,7 @@ class SimulatorsTest : public ::testing::Test {
                                         "\"\n" + repose::testing::kRoughContacts + more));
   }
 
-  /// Why the study's experiment is refused; empty: it is not.
+  /// Why the study's experiment is rejected; empty if it is not.
   static std::string refused(const dem::Study& study,
                              const dem::EngineChoice& choice = liggghts()) {
     const NamedGrain grain(dem::build_grain(study.grain));
@@ -199,7 +199,7 @@ TEST_F(SimulatorsTest, RunsOfAnotherProgramAreNeverTakenForOurs) {
   };
   const auto one = liggghts_simulator(liggghts(1)), two = liggghts_simulator(liggghts(2));
   EXPECT_NE(key("heap", one), key("heap", own_simulator()));
-  // Grains go other ways where sums are taken in another order.
+  // Grains take different paths if sums are taken in a different order.
   EXPECT_NE(key("heap", one), key("heap", two));
   EXPECT_EQ(key("drop", one), key("drop", two));
 }
@@ -229,7 +229,7 @@ TEST_F(SimulatorsTest, AProgramThatLeavesNoReadingIsAnError) {
               HasSubstr("ended without the line \"reading: still_moved_m\""));
 }
 
-/// What a fake LIGGGHTS says of a heap of balls, and leaves of it.
+/// What a fake LIGGGHTS prints for a heap of balls, and what it leaves of it.
 struct FakeHeap {
   int put_in = 30;
   int filled = 30;
@@ -261,7 +261,7 @@ std::string rows_of_pyramid(int count) {
 
 class LostGrains : public SimulatorsTest {
  protected:
-  /// Made by such a program.
+  /// The heap made by such a program.
   RunResult heap_of(const FakeHeap& heap) const {
     const std::string dump = fmt::format(
         "ITEM: TIMESTEP\n9\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n-1 1\n-1 1\n"
@@ -320,7 +320,7 @@ TEST_F(LostGrains, OfAFillAreARunWithoutAReading) {
     return simulate_experiment(spec, 1);
   };
   const std::string full = "reading: grains 80\nreading: bulk_density_kg_m3 500\n";
-  // Two spheres a grain.
+  // Two spheres per grain.
   EXPECT_EQ(fill_of(full + "reading: poured_grains 100\nreading: poured_spheres 200\n").value, 500);
   EXPECT_THAT(fill_of(full + "reading: poured_grains 100\nreading: poured_spheres 193\n").failure,
               HasSubstr("4 of 100 grains were lost"));

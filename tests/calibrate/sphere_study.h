@@ -4,7 +4,7 @@
 
 namespace repose::calibrate::test {
 
-/// A soft ball and a stiffer wall: a run takes some hundredths of a second.
+/// A soft ball and a stiffer wall: a run takes a few hundredths of a second.
 inline const std::string kSoftBall = R"([particle]
 size_mm = [20, 20, 20]
 spheres = 1
@@ -16,7 +16,7 @@ young_modulus_pa = 1e8
 poisson_ratio = 0.3
 )";
 
-/// Its restitution is told by a drop, its friction by a tilting plate.
+/// A drop determines its restitution, a tilting plate its friction.
 inline const std::string kSphereStudy = kSoftBall + R"([contact.particle_wall]
 restitution = { min = 0.2, max = 0.9 }
 sliding_friction = { min = 0.1, max = 0.8 }

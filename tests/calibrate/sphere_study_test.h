@@ -15,14 +15,14 @@
 
 namespace repose::calibrate::test {
 
-/// Tests of the study of a soft ball, with what a test changes of it.
+/// Tests of the soft-ball study, with settings changed by each test.
 class SphereStudyTest : public ::testing::Test {
  protected:
   dem::Study read(const std::vector<std::string>& settings = {}) const {
     return dem::read_study(folder_.write("study.toml", kSphereStudy), settings);
   }
 
-  /// Each is made once: that takes longer than most runs here.
+  /// Builds each grain once: building takes longer than most runs here.
   static const dem::ClumpFile& grain_of(const dem::Study& study) {
     static std::map<double, dem::ClumpFile> by_thickness;
     const auto [found, is_new] = by_thickness.try_emplace(study.grain.sizes->thickness_m);

@@ -1,10 +1,10 @@
 #pragma once
 
-/// Files of runs as the first version wrote them that has this format. They stay as they are: what
-/// is stored must be read by every later version.
+/// Run files as written by the first version with this format. They must stay unchanged: every
+/// later version must be able to read stored files.
 namespace repose::calibrate::test {
 
-/// A heap seen from two sides by a near camera.
+/// A heap seen from two sides by a camera close to it.
 inline constexpr const char* kStoredHeap = R"({
   "simulated": {
     "experiment": "heap",

@@ -71,7 +71,7 @@ TEST_F(ProblemOfStudy, CoefficientsOfAPartAreSoughtWhereTheBenchHasIt) {
               IsEmpty());
 }
 
-// Runs in the store keep their names.
+// Stored runs keep their names.
 TEST_F(ProblemOfStudy, ARunIsNamedAfterThePartsOfItsBenchAlone) {
   const dem::Study plain = read({"experiment.roll = {}"}), inclined = read(kInclined);
   const auto text = [&](const dem::Study& study, dem::Experiment experiment) {
@@ -209,7 +209,7 @@ TEST_F(ProblemOfStudy, AStudyAsksForTheRunsThatASingleExperimentMakes) {
   EXPECT_TRUE(folder.find_whole(simulator_of(read()).spec(job), job.seed));
 }
 
-// What the default runs are called is as it was before there was a choice.
+// The names of default runs are the same as before there was a choice.
 TEST_F(ProblemOfStudy, SharedDampingMakesOtherRuns) {
   const auto described = [&](const std::string& damping) {
     const dem::Study study = read({"contact.particle_wall.restitution = 0.5",
@@ -224,7 +224,7 @@ TEST_F(ProblemOfStudy, SharedDampingMakesOtherRuns) {
 }
 
 TEST_F(ProblemOfStudy, ForeseesARunFromItsLaterPace) {
-  // 100 steps a second at the beginning, 10 later on.
+  // 100 steps a second at first, 10 later.
   const std::vector<WorkLook> looks = {{1, 100}, {2, 110}, {3, 120}, {4, 130}};
   EXPECT_NEAR(foreseen_s(looks, 230).value(), 4 + 10, 1e-9);
   EXPECT_NEAR(foreseen_s(looks, 100).value(), 4, 1e-9) << "no less than it has taken";

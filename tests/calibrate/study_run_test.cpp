@@ -41,7 +41,7 @@ class StudyRun : public test::SphereStudyTest {
     return budget;
   }
 
-  /// The fitted values of a study run in a folder; breaks it off before job number `stop`.
+  /// The outcome of a study run in a folder, interrupted at progress report number `stop`.
   std::optional<StudyOutcome> run(const std::string& folder, int threads, int stop = -1,
                                   const std::vector<std::string>& settings = {}) const {
     const dem::Study study = read(settings);
@@ -172,7 +172,7 @@ TEST_F(StudyRun, AClumpThatCannotHaveMoreSpheresIsNamedAndDoesNotStopTheStudy) {
   dem::Study study = read(kClump);
   const dem::ClumpFile& grain = grain_of(study);
   const Problem problem = small_problem(study);
-  study.grain.sizes.reset();  // as a scan that was moved away meanwhile
+  study.grain.sizes.reset();  // like a scan that was moved away in the meantime
   StudySimulator simulator(study, grain, problem.parameters, 0);
   const RunStore runs(folder_.path() / "moved");
   simulator.store_in(runs);
@@ -214,7 +214,7 @@ TEST_F(StudyRun, ABenchThatCannotResolveItsMarginCannotTell) {
   EXPECT_LT(outcome->fit.freedom.degrees, .01);
 }
 
-/// Two heights of drop tell how restitution goes with the speed: 100 and 4 mm are fivefold.
+/// Two drop heights show how restitution depends on speed: 100 and 4 mm are fivefold in speed.
 TEST_F(StudyRun, TwoHeightsGiveRestitutionAndItsExponentBack) {
   const double e0 = .5, exponent = .12;
   const auto rebound_mm = [&](double height_mm) {
@@ -223,7 +223,7 @@ TEST_F(StudyRun, TwoHeightsGiveRestitutionAndItsExponentBack) {
   };
   const auto outcome = run(
       "speeds", 2, -1,
-      {"particle.young_modulus_pa = 1e8",  // too stiff for its weight to matter
+      {"particle.young_modulus_pa = 1e8",  // so stiff that its weight does not matter
        "contact.particle_wall.restitution_exponent = { min = 0, max = 0.25 }",
        "contact.particle_wall.restitution_speed_m_s = 1.4",
        "contact.particle_wall.sliding_friction = 0.4", "experiment.drop.low_height_mm = 4",
@@ -253,7 +253,7 @@ TEST_F(StudyRun, FindsTheCoefficientsOfTheBench) {
 }
 
 TEST_F(StudyRun, EveryCheckEntersTheFitWhetherItAgreesOrNot) {
-  for (const char* tilted : {"20.5", "70"}) {  // the second is out of reach
+  for (const char* tilted : {"20.5", "70"}) {  // the second is unreachable
     const auto outcome =
         run("runs", 2, -1,
             {fmt::format("experiment.tilt.measured = {{ mean = {}, sd = 1, n = 4 }}", tilted)});
@@ -267,7 +267,7 @@ TEST_F(StudyRun, EveryCheckEntersTheFitWhetherItAgreesOrNot) {
                               [&](const auto& known) { return known.job == check.job; }));
       EXPECT_TRUE(check.job.experiment == "tilt" || check.job.seed >= 1'000'000'000U);
     }
-    // What is reported is the fit of all of them, and the check is of coefficients close to it.
+    // The reported fit includes all of them, and the final check is at coefficients close to it.
     EXPECT_EQ(
         fit_jointly(small_problem(read({fmt::format(
                         "experiment.tilt.measured = {{ mean = {}, sd = 1, n = 4 }}", tilted)})),
@@ -281,7 +281,7 @@ TEST_F(StudyRun, EveryCheckEntersTheFitWhetherItAgreesOrNot) {
 TEST_F(StudyRun, ChecksAreFewRunsWhileTheyMoveTheFitAndManyAtTheEnd) {
   const auto outcome = run("runs", 2);
   ASSERT_TRUE(outcome);
-  std::map<double, int> drops;  // by restitution: those with the seeds of checks
+  std::map<double, int> drops;  // by restitution: only those with the seeds of checks
   for (const auto& known : outcome->runs) {
     const bool is_check = known.job.seed >= 1'000'000'000U;
     if (is_check && known.job.experiment == "drop") ++drops[known.job.values[0]];
@@ -333,7 +333,7 @@ TEST_F(StudyRun, AnExperimentWithoutAReadingIsAFailedRunNotAnError) {
   EXPECT_THAT(found.failure, HasSubstr("instead of sliding"));
 }
 
-/// As a broken machine would: the first drop rebounds as high as it says.
+/// Like a faulty machine: the first drop rebounds to `rebound_mm`.
 class WrongExecutor : public Executor {
  public:
   WrongExecutor(const StudySimulator& simulator, double rebound_mm)
@@ -359,7 +359,7 @@ TEST_F(StudyRun, AReadingThatCannotBeCountsAsAFailedRunAndIsNamed) {
   const dem::Study study = read();
   const StudySimulator simulator = simulator_of(study);
   for (const auto& [name, rebound_mm] : {std::pair("huge", 1e200), std::pair("high", 200.)}) {
-    const RunStore runs(folder_.path() / name);  // the ball falls 100 mm
+    const RunStore runs(folder_.path() / name);  // the ball falls from 100 mm
     WrongExecutor executor(simulator, rebound_mm);
     const std::atomic<bool> is_interrupted = false;
     const auto outcome =

@@ -18,7 +18,7 @@ TEST(Summary, MatchTheHandComputedExample) {
   EXPECT_DOUBLE_EQ(repeats.mean, 5);
   ASSERT_TRUE(repeats.sd && repeats.mean_uncertainty);
   EXPECT_DOUBLE_EQ(*repeats.sd, std::sqrt(32.0 / 7.0));
-  // Table of Student's t: 2.3646 for 7 degrees of freedom and 95 %; it has five digits.
+  // From a table of Student's t with five digits: 2.3646 for 7 degrees of freedom and 95 %.
   EXPECT_NEAR(*repeats.mean_uncertainty, 2.3646 * *repeats.sd / std::sqrt(8.0), 1e-4);
 }
 
@@ -48,7 +48,7 @@ TEST(Summary, NoValueIsRefused) {
 }
 
 // Rosner (1983), Technometrics 25, 165, table 1: at 5 % three of 54 are outliers, although the
-// farthest alone is none.
+// farthest alone is not.
 TEST(Outliers, AreThoseOfRosner) {
   std::vector<double> values = {-.25, .68,  .94,  1.15, 1.2,  1.26, 1.26, 1.34, 1.38, 1.43, 1.49,
                                 1.49, 1.55, 1.56, 1.58, 1.65, 1.69, 1.7,  1.76, 1.77, 1.81, 1.91,

@@ -1,4 +1,4 @@
-// Studies of a table of runs: reading of both, and the fit.
+// Studies of a table of runs: reading both, and the fit.
 #include "calibrate/runs/table_fit.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ using TableStudyTest = TableTest;
 using TableRunsTest = TableTest;
 using TableFitTest = TableTest;
 
-/// x and y alone, for tables that are written out.
+/// Only x and y, for tables written out in full.
 constexpr const char* kLineStudy =
     "[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 3, sd = 1, n = 4 }\n";
 
@@ -114,7 +114,7 @@ TEST_F(TableStudyTest, ReadsASheetOfNumbers) {
   EXPECT_NEAR(read.measured[0].mean, 3, 1e-12);
 }
 
-/// Places and pictures in place of an angle: measured, each with its own uncertainty.
+/// Positions and pictures instead of an angle: measured, each with its own uncertainty.
 TEST_F(TableRunsTest, PicturesAndParticlesAreMeasured) {
   constexpr double kHeight_m = .024, kRadius_m = .002;
   for (const int angle : {20, 28}) {
@@ -223,7 +223,7 @@ TEST_F(TableRunsTest, ReadsRepeatsSeedsStatusAndComments) {
 }
 
 TEST_F(TableRunsTest, TakesAColumnOfNumbersAloneForNothing) {
-  // Particles, or seeds: without a standard deviation nothing says that rows are means.
+  // Particles, or seeds: without a standard deviation nothing indicates that rows are means.
   const TableRuns read = runs(study(kLineStudy), "x,y,n\n0.1,2,50000\n0.2,2.5,50000\n");
   EXPECT_EQ(read.runs[0].repeats, 1);
   EXPECT_THAT(read.notes, Contains(HasSubstr("not used: n")));
@@ -302,7 +302,7 @@ TEST_F(TableRunsTest, RowsThatTellOfOtherRowsAreFaults) {
               AllOf(HasSubstr("runs.csv:6: this last row looks like mean"), HasSubstr("not runs"),
                     HasSubstr("Fix: delete it")));
   EXPECT_THAT(fault_of_runs(line, rows + "e,0.4575,2.8900\n"), HasSubstr("runs.csv:6: this last"));
-  // The spreadsheet has a reading more than the table.
+  // The spreadsheet's mean includes one reading more than the table.
   EXPECT_THAT(fault_of_runs(line, rows + ",0.4575,2.95\n"), HasSubstr("runs.csv:6: this last"));
   EXPECT_THAT(fault_of_runs(line, rows + ",0.4575,2.89\n,0.3115,0.684\n"),
               HasSubstr("runs.csv:6: lines 6 to 7 look like mean"));
@@ -408,7 +408,7 @@ TEST_F(TableFitTest, NeedsEnoughPlaces) {
               HasSubstr("readings at 0 different places, of 5 rows"));
 }
 
-/// y = 2 + 2 x + .1 z, and a little chance.
+/// y = 2 + 2 x + .1 z, plus a little noise.
 std::string line_rows(double from, double to) {
   std::string rows = "x,z,y\n";
   for (int k = 0; k < 14; ++k) {
@@ -444,7 +444,7 @@ TEST_F(TableFitTest, SaysWhereThereAreNoRows) {
   };
   EXPECT_THAT(warnings(.3, .7), Contains(HasSubstr("x: the rows are from 0.3 to 0.7")));
   EXPECT_THAT(warnings(.05, .95), Not(Contains(HasSubstr("extrapolated"))));
-  // Where all runs failed there are no readings either.
+  // If all runs there failed, there are no readings either.
   const TableRuns with_failed = runs(of, line_rows(.3, .7) + "0.02,0.5,failed\n0.98,0.5,failed\n");
   EXPECT_THAT(std::get<JointResult>(fit_table(of, with_failed).found).warnings,
               Contains(HasSubstr("x: the rows are from 0.3 to 0.7")));

@@ -1,4 +1,4 @@
-// What runs of a table predict, and which to make next.
+// What the runs of a table predict, and which to make next.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -141,7 +141,7 @@ TEST_F(NextRunsTest, GoWhereParametersFit) {
   EXPECT_THAT(next.runs.front().reason, HasSubstr("angle is known to ±"));
 }
 
-/// A program that fails where sliding is above .45, asked round by round.
+/// A program that fails if sliding exceeds .45, round by round.
 TEST_F(NextRunsTest, KeepAwayFromWhereRunsFail) {
   const TableStudy of =
       study(std::string(test::kMadeUpParameters) +
@@ -234,13 +234,13 @@ TEST_F(NextRunsTest, MakeATableToBeFilledInAndRead) {
   EXPECT_EQ(empty.without_reading, 8);
   EXPECT_EQ(empty.failed, 0) << "nobody said that they failed";
   EXPECT_EQ(empty.places[0], next.runs[0].values);
-  // With the columns of the table that it goes to.
+  // With the columns of the table it will be added to.
   const TableRuns there = runs(of, test::made_up_rows({.rows = 4}));
   EXPECT_THAT(csv_text(next_runs_table(of, there, next.runs)),
               HasSubstr("sliding,rolling,restitution,angle,angle_sd,density,n,reason\n"));
 }
 
-/// Rows that can be put below those of the table as it is.
+/// Rows that can be appended to the table unchanged.
 TEST_F(NextRunsTest, AreWrittenAsTheTableIs) {
   const TableStudy of =
       study("[parameter]\nx = { min = 0, max = 1 }\n[measured]\ny = { mean = 3, sd = 1, n = 4 }\n");

@@ -26,7 +26,7 @@ std::vector<double> column(const std::string& text, const std::string& name) {
   return numbers_of(parse_table("runs.csv", text), {&wanted, 1}).front();
 }
 
-/// Of a single column "a" whose numbers must lie within limits.
+/// The error of a single column "a" whose numbers must lie within limits.
 std::string error_within(const std::string& text, double above, double below) {
   const NumberColumn wanted{"a", above, below};
   return error_of([&] { numbers_of(parse_table("runs.csv", text), {&wanted, 1}); });
@@ -68,7 +68,7 @@ TEST(Table, PointsThatMayPartThousandsAreReadByWhatIsPossible) {
                     HasSubstr("runs.csv:3: "), HasSubstr("Fix: write 1403 if it does")));
   EXPECT_THAT(error_within(densities, 10, 1e5), HasSubstr("which may mean 1403. Fix: "));
   EXPECT_EQ(error_within("sample;a\nx;22.125\ny;23.250\n", 0, 90), "");
-  // Another number has a point between decimals; a column in another unit tells as well.
+  // Other numbers with an unambiguous decimal point settle it, even in another column.
   EXPECT_EQ(error_within("sample;a\nx;1.403\ny;1.4\n", 0, 1e5), "");
   EXPECT_EQ(table_error("a;b\n1.012;0.5\n", {"a", "b"}), "");
   EXPECT_EQ(error_within("sample,a\nx,1.403\n", 0, 1e5), "");

@@ -113,7 +113,7 @@ TEST_F(CameraCommand, RefusesWithTheReasonAndWritesNoFile) {
 struct MeasureWithScale : CommandTest {
   MeasureWithScale() : CommandTest({"measure"}) {}
 
-  /// A drawn heap 480 px wide with a board beside it, which makes it 0.5 mm a pixel.
+  /// A drawn heap 480 px wide with a board beside it, giving a scale of 0.5 mm per pixel.
   void draw() {
     HeapScene scene = condition_named("clean").scene(3);
     scene.width = 1200;
@@ -207,7 +207,7 @@ TEST_F(MeasureWithScale, TheProposalForARefusedPictureRepeatsWhatWasTyped) {
   const Finished done = run(
       {"a box.png", "--scale", "10,20,210,20,100", "--pitch-deg", "3", "--exclude", "0,0,40,40"});
   EXPECT_EQ(done.exit_code, 3);
-  std::string words = done.out;  // the table breaks its lines
+  std::string words = done.out;  // the table wraps its lines
   std::replace(words.begin(), words.end(), '\n', ' ');
   words = std::regex_replace(words, std::regex(" +"), " ");
   EXPECT_THAT(words, AllOf(HasSubstr("try: repose measure 'a box.png'"),

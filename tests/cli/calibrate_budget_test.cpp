@@ -1,4 +1,4 @@
-// What a calibration says of its time: beforehand, meanwhile, and with --minutes.
+// What a calibration says about its time: beforehand, during the run, and with --minutes.
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -24,7 +24,7 @@ TEST_F(CalibrateBudget, TellsBeforehandWhatEachBudgetWouldDo) {
                               HasSubstr("one more hour"), HasSubstr("time at most, 2 cores")));
   EXPECT_FALSE(exists("study_calibration")) << "nothing is written";
 
-  // No fit makes more simulations than was told.
+  // No fit runs more simulations than announced.
   const auto quick = [&](const std::string& experiment) {
     std::istringstream row(done.out.substr(done.out.find("\n" + experiment + ' ')));
     std::string name, run, unit, plus;
@@ -121,7 +121,7 @@ TEST_F(CalibrateBudget, SaysHowFarItIsInAFile) {
   EXPECT_GE(progress["done"], 1);
   ASSERT_EQ(progress["parameters"].size(), 2U);
   EXPECT_EQ(progress["parameters"][0]["name"], "contact.particle_wall.restitution");
-  // As the result has them.
+  // The same as in the result.
   const json result = json::parse(text("study_calibration/result.json"));
   ASSERT_FALSE(progress["rounds"].empty());
   EXPECT_LE(progress["rounds"].size(), result["rounds"].size());

@@ -10,7 +10,7 @@
 
 namespace repose::testing {
 
-/// `repose calibrate` of a study that takes a second.
+/// `repose calibrate` on a study that takes a second.
 class CalibrateCommandTest : public CommandTest {
  protected:
   CalibrateCommandTest() : CommandTest({"calibrate"}) {

@@ -22,7 +22,7 @@ using ::testing::Not;
 
 constexpr double kDrop_mm = 250;
 
-/// A drop whose rebound is read off films, with only restitution to be found.
+/// A drop whose rebound is measured in videos, with only restitution free.
 class CalibrateFilms : public CommandTest {
  protected:
   CalibrateFilms() : CommandTest({"calibrate"}) {
@@ -56,7 +56,7 @@ measured = { videos = ["drops/*.mp4"] }
   void draw(const char* name, double restitution, double plays_at = 60) const {
     write_film(path(name), drop_of(restitution), plays_at);
   }
-  /// A film that begins after the first bounce, while the grain rises.
+  /// A video that starts after the first bounce, while the grain rises.
   void draw_end(const char* name) const {
     const DrawnDrop drop = drop_of(.6);
     vision::FilmWriter film(path(name), drop.frames_per_s);

@@ -70,7 +70,7 @@ TEST_F(Calibrate, WhatTheStudyMarksAsAssumedStaysSo) {
     const std::size_t start = protocol.find(row);
     return protocol.substr(start, protocol.find('\n', start) - start);
   };
-  // Item, what is stated, what is assumed, what was measured.
+  // Item, stated values, assumed values, measured values.
   EXPECT_THAT(cells_of("grain:"), ::testing::ContainsRegex("ratio [0-9.]+\",density [0-9]+ kg"));
   EXPECT_THAT(cells_of("wall:"), ::testing::ContainsRegex("Pa,Poisson's ratio [0-9.]+,"));
 }
@@ -214,7 +214,7 @@ TEST_F(CalibrateKilled, AgainAndAgainEndsWithTheSameBytes) {
     }
     ::kill(program, SIGKILL);
     ::waitpid(program, &status, 0);
-    // On a busy machine it may have come to its end before it was looked at.
+    // On a busy machine it may have finished before this loop looked.
     if (std::filesystem::remove(path("killed/result.json"))) break;
     ++kills;
   }
@@ -225,7 +225,7 @@ TEST_F(CalibrateKilled, AgainAndAgainEndsWithTheSameBytes) {
   EXPECT_EQ(text("killed/result.json"), text("whole/result.json"));
 }
 
-/// As a cluster gives a job one core of many; programs that are started have no more.
+/// Restricts this process, and programs it starts, to one core, as a cluster does for a job.
 class OneCore {
  public:
   OneCore() {
@@ -249,7 +249,7 @@ class OneCore {
 
 TEST_F(Calibrate, TakesTheCoresThatItMayUse) {
   const OneCore one_core;
-  // The server of run() has all cores.
+  // Not run(): its server has all cores.
   const Finished done = run_program(program(), folder_, {"calibrate", "study.toml", "--dry-run"});
   EXPECT_THAT(done.out, HasSubstr("time at most, 1 core "));
   EXPECT_THAT(done.err, IsEmpty());
@@ -298,7 +298,7 @@ TEST_F(Calibrate, AFullDiskLosesNothing) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "the thread sanitizer begins by writing a file of its own";
 #endif
-  // No file may grow beyond 4 KiB: runs are smaller, the clump and the result are larger.
+  // Files are limited to 4 KiB: runs are smaller, the clump and the result are larger.
   folder_.write("full.sh", std::string("trap '' XFSZ; ulimit -f 8\n"
                                        "exec '") +
                                program().string() + "' calibrate study.toml --out runs\n");
@@ -377,7 +377,7 @@ TEST_F(CalibrateRanks, GiveTheBytesOfOneProcess) {
   ASSERT_EQ(run(of_one).exit_code, 0);
   for (const char* ranks : {"2", "4"}) {
     const std::string out = std::string("ranks") + ranks;
-    // MPI's own libraries leak, and are gone when the sanitizer would name them.
+    // MPI's own libraries leak, and are already unloaded when the sanitizer would name them.
     const Finished done = run_program(
         "mpirun", folder_,
         {"--allow-run-as-root", "--oversubscribe", "-np", ranks, "env",
@@ -390,7 +390,7 @@ TEST_F(CalibrateRanks, GiveTheBytesOfOneProcess) {
 
 TEST_F(CalibrateRanks, AStudyGoesOnAfterOneWasKilled) {
   ASSERT_EQ(run({"study.toml", "--out", "one"}).exit_code, 0);
-  // On a busy machine it may come to its end before it is killed: then once more.
+  // On a busy machine it may finish before it is killed: then try again.
   const std::string script =
       "for attempt in 1 2 3 4 5; do\n"
       "  rm -rf ranks\n"

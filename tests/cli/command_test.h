@@ -23,7 +23,7 @@ inline Words with(Words words, const Words& more) {
   return words;
 }
 
-/// Runs of one command, in a folder of their own.
+/// Runs one command, in a folder of its own.
 class CommandTest : public ::testing::Test {
  protected:
   explicit CommandTest(Words command) : command_(std::move(command)) {}
@@ -34,7 +34,7 @@ class CommandTest : public ::testing::Test {
   }
   Finished run(const Words& words) const { return run_repose(folder_, with_command(words)); }
 
-  /// What it prints for programs.
+  /// Its JSON output.
   json result(Words words) const {
     words.insert(words.end(), {"--json", "-"});
     const Finished done = run(words);
@@ -52,7 +52,7 @@ class CommandTest : public ::testing::Test {
   Words command_;
 };
 
-/// A result of repose simulate without what a clock measured.
+/// A result of repose simulate without its timings.
 inline json without_times(json result) {
   for (json& repeat : result["repeats"]) {
     for (const char* key : {"wall_s", "clump_steps_per_s"}) repeat.erase(key);
@@ -60,7 +60,7 @@ inline json without_times(json result) {
   return result;
 }
 
-/// Letters of the longest line.
+/// Length of the longest line, in characters.
 inline std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);
   std::size_t longest = 0;

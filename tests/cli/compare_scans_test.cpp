@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Scans and particles of round heaps, and a picture of one of 27 degrees.
+/// Scans and particles of round heaps, and a picture of a heap of 27 degrees.
 class CompareScans : public CommandTest {
  protected:
   CompareScans() : CommandTest({"compare"}) {
@@ -53,7 +53,7 @@ TEST_F(CompareScans, OfTwoScansTheirSilhouettesAreCompared) {
   const json compared = result({"scans/a.ply", "scans/b.ply"});
   EXPECT_NEAR(compared["angle_difference_deg"].get<double>(), .5, .2);
   EXPECT_EQ(compared["verdict"], "equivalent");
-  // Which side of one is which of the other, nobody knows.
+  // It is unknown which side of one heap corresponds to which of the other.
   const json& left = compared["left"]["angle_difference_interval"];
   const json& all = compared["angle_difference_interval"];
   EXPECT_GT(left[1].get<double>() - left[0].get<double>(),

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// A heap four grains high that is poured in seconds.
+/// A heap four grains high that is poured within seconds.
 const std::string kComparedStudy = kSoftBalls + kRoughContacts + R"([experiment.heap]
 grains = 160
 lift_speed_mm_s = 150

@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// A folder with two drawn heaps in it, `steep.png` and `flat.png`, and `black.png` without one.
+/// A folder with two drawn heaps, `steep.png` and `flat.png`, and `black.png` without one.
 class Compare : public CommandTest {
  protected:
   Compare() : CommandTest({"compare"}) {

@@ -28,7 +28,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-/// A folder as repose calibrate leaves it, of a study that has ended.
+/// A folder as repose calibrate leaves it when a study has finished.
 class Export : public CommandTest {
  protected:
   Export() : CommandTest({"export"}) {
@@ -93,7 +93,7 @@ TEST_F(Export, JsonListsFilesAndConversions) {
   EXPECT_THAT(text("tables/spheres.txt"), HasSubstr("Physical Radius\n"));
 }
 
-/// A study whose heap leaves the friction between grains open.
+/// A study whose heap does not determine the friction between grains.
 class ExportOfAHeap : public Export {
  protected:
   ExportOfAHeap() {
@@ -128,7 +128,7 @@ class ExportOfAHeap : public Export {
     folder_.write("study/result.json", to_json(result));
   }
 
-  /// Command lines that the README of an export has, as words.
+  /// The command lines in the README of an export, split into words.
   std::vector<Words> commands_in(const std::string& readme) const {
     std::vector<Words> commands;
     std::istringstream lines(text(readme));
@@ -144,7 +144,7 @@ class ExportOfAHeap : public Export {
   }
 };
 
-/// Fills in what runs gave: a file of the heap's particles in the first row, numbers in others.
+/// Fills in results: a file of the heap's particles in the first row, numbers in the others.
 std::string filled_in(const std::string& table, const std::string& heap_file) {
   std::istringstream lines(table);
   std::string line, headings;
@@ -170,7 +170,7 @@ std::string filled_in(const std::string& table, const std::string& heap_file) {
   return filled;
 }
 
-// What a user pastes runs as it stands, with a heap of that program in its place.
+// Commands pasted from the README work unchanged, with a heap in that program's format.
 TEST_F(ExportOfAHeap, CommandsOfItsReadmeBringTheHeapBack) {
   const Spheres heap = packed_cone(24, .018, .002);
   HeapScene scene;
@@ -195,7 +195,7 @@ TEST_F(ExportOfAHeap, CommandsOfItsReadmeBringTheHeapBack) {
     vision::write_picture(work.path() / "photo.jpg", photo);
     for (const Words& command : commands) {
       const bool is_fit = std::ranges::find(command, "--runs") != command.end();
-      if (is_fit && std::string(target) != "edem") continue;  // the same again, in seconds
+      if (is_fit && std::string(target) != "edem") continue;  // the same again, taking seconds
       const Finished ran = run_repose(work, command);
       EXPECT_EQ(ran.exit_code, 0) << target << ": repose " << command.front() << ' ' << ran.err;
       if (command.front() == "measure") {

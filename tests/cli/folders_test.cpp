@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
-/// What commands leave in folders, and what they do with what is there.
+/// What commands leave in folders, and what they do with existing files.
 class Folders : public CommandTest {
  protected:
   Folders() : CommandTest({}) { folder_.write("study.toml", calibrate::test::kSphereStudy); }
@@ -29,7 +29,7 @@ class Folders : public CommandTest {
     std::filesystem::create_directories(path(name).parent_path());
     folder_.write(name, std::string("the user's"));
   }
-  /// Files of a folder's store whose names end so.
+  /// Files of a folder's store whose names end in `ending`.
   std::vector<std::filesystem::path> stored(const std::string& name,
                                             const std::string& ending) const {
     std::vector<std::filesystem::path> files;
@@ -53,13 +53,13 @@ class Folders : public CommandTest {
     study.replace(study.find("density_kg_m3 = 1000"), 20, "density_kg_m3 = 1500");
     folder_.write(name, study);
   }
-  /// For a minute at most, since the machine may be busy.
+  /// Waits for a minute at most, since the machine may be busy.
   void wait_until_there(const std::string& name) const {
     for (int k = 0; k < 12'000 && !exists(name); ++k) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
   }
-  /// Ends a program when a file is there.
+  /// Kills a program when a file has appeared.
   void interrupt_when_there(pid_t program, const std::string& name) const {
     wait_until_there(name);
     ::kill(program, SIGKILL);
@@ -156,7 +156,7 @@ TEST_F(Folders, AStudyThatWasChangedAndInterruptedHasNoResult) {
     if (name.starts_with("result_quick_")) kept.push_back(text("d/" + name));
   }
   EXPECT_EQ(kept, std::vector{first});
-  // As an earlier version left it.
+  // As if left by an earlier version.
   folder_.write("d/result.json", first);
   const Finished mixed = run({"export", "d", "--to", "yade"});
   EXPECT_EQ(mixed.exit_code, 2);
@@ -234,8 +234,8 @@ TEST_F(Folders, SignalsEndAStudyInGoodOrder) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     std::filesystem::remove_all(path("d"));
     const pid_t program = start_repose(folder_, {"calibrate", "long.toml", "--out", "d"});
-    wait_until_there("d/study.json");  // it watches for signals before it writes that,
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // and is simulating by now
+    wait_until_there("d/study.json");  // signals are handled before this is written,
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // and by now it is simulating
     ::kill(program, signal);
     int status = 0;
     ::waitpid(program, &status, 0);
@@ -245,9 +245,9 @@ TEST_F(Folders, SignalsEndAStudyInGoodOrder) {
   }
 }
 
-/// Ends a command after some milliseconds, more each time, until it ends by that with exit code
+/// Interrupts a command after some milliseconds, with a delay adjusted until it ends with exit code
 /// 130.
-/// @param made  what it would write
+/// @param made  the file or folder that it would write
 void expect_good_ends(const TemporaryFolder& folder, const Words& words,
                       const std::filesystem::path& made) {
   constexpr int kStep_ms = 3, kTries = 300;
@@ -259,7 +259,7 @@ void expect_good_ends(const TemporaryFolder& folder, const Words& words,
     ::kill(program, SIGTERM);
     int status = 0;
     ::waitpid(program, &status, 0);
-    if (!WIFEXITED(status)) {  // it had not begun
+    if (!WIFEXITED(status)) {  // it had not started properly
       delay_ms += kStep_ms;
       continue;
     }

@@ -28,7 +28,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 class Completion : public ::testing::Test {
  protected:
-  /// What bash offers after these words, the last of which is not finished.
+  /// Bash's completions for these words, the last of which is incomplete.
   std::vector<std::string> in_bash(const std::string& words) const {
     const Finished done =
         run_program("bash", folder_,
@@ -67,7 +67,7 @@ TEST_F(Completion, BashOffersFilesWhereFilesAreMeant) {
 
 TEST_F(Completion, ZshIsToldEveryOptionOfACommand) {
   folder_.write("_repose", run_repose(folder_, {"completion", "zsh"}).out);
-  // What the script hands to zsh's own functions, which need a keyboard.
+  // What the script passes to zsh's own functions, which need a keyboard.
   const Finished done =
       run_program("zsh", folder_,
                   {"-f", "-c",

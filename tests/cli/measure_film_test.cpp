@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// A folder with a film in it; the drawing is done once for all tests.
+/// A folder with a video in it, drawn once for all tests.
 struct MeasureFilms : CommandTest {
   MeasureFilms() : CommandTest({"measure"}) {}
 

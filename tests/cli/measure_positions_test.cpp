@@ -1,4 +1,4 @@
-// Files of particles in `repose measure` and `repose render`.
+// Particle files in `repose measure` and `repose render`.
 #include <algorithm>
 #include <filesystem>
 #include <string>

@@ -116,7 +116,7 @@ TEST_F(MeasureScan, DamagedFilesAreNamedWithARemedy) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("cut.ply"), HasSubstr("too soon"), HasSubstr("Fix: ")));
 }
 
-/// Simulated heaps are read in silhouettes, which show another angle.
+/// Simulated heaps are measured as silhouettes, which show a different angle.
 TEST_F(MeasureScan, AStudyTakesNoScans) {
   const std::string study = text_of(source_folder() / "samples/hazelnut/study.toml");
   const std::string known = "measured = { mean = 23.38, sd = 0.72, n = 10 }";

@@ -26,7 +26,7 @@ using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 using Words = std::vector<std::string>;
 
-/// A folder with drawn pictures in it; the drawing is done once for all tests.
+/// A folder with drawn pictures in it; they are drawn once for all tests.
 class Measure : public ::testing::Test {
  protected:
   void draw_heap_to(const std::string& name) const {
@@ -157,7 +157,7 @@ TEST_F(Measure, APictureThatLiesOnItsSideIsAskedAboutAndTurned) {
   EXPECT_EQ(both.at(0).at("angle_deg"), both.at(1).at("angle_deg"));
   EXPECT_EQ(both.at(0).at("hints").at("rotate_deg"), 90);
   EXPECT_THAT(both.at(0).dump(), HasSubstr("turned clockwise by 90 degrees"));
-  // So it is by all others who read it.
+  // All other commands that read the picture do the same.
   EXPECT_THAT(run_repose(folder_, {"compare", "lying.png", "upright.png"}).out,
               HasSubstr("difference"));
   EXPECT_THAT(run({"lying.png", "--rotate", "45"}).err, HasSubstr("--rotate 45"));
@@ -250,7 +250,7 @@ TEST_F(Measure, MethodWindowAndPitchReachTheMeasuring) {
   const json told_level = measured({"--pitch-deg", "0"});
   EXPECT_EQ(told_level["pitch_deg"], 0);
   EXPECT_EQ(told_level["angle_deg"], usual["angle_deg"]);
-  EXPECT_NE(told_level["uncertainty_deg"], usual["uncertainty_deg"]);  // told is not untold
+  EXPECT_NE(told_level["uncertainty_deg"], usual["uncertainty_deg"]);  // given is not unknown
 }
 
 TEST_F(Measure, ABoxOutsideOnePictureErrorsOnlyThatPicture) {
@@ -265,7 +265,7 @@ TEST_F(Measure, ABoxOutsideOnePictureErrorsOnlyThatPicture) {
 
 TEST_F(Measure, SeveralPicturesHaveAMeanOfThoseThatAreOk) {
   draw_heap_to("a.png");
-  draw_heap_to("b.png");  // a copy: no second heap
+  draw_heap_to("b.png");  // a copy: not a second heap
   HeapScene other;
   other.width = 600;
   other.height = 400;
@@ -336,7 +336,7 @@ TEST_F(Measure, AnOutlierIsNamedInEveryOutput) {
 TEST_F(Measure, ACopyInAnotherFormatIsNoSecondHeap) {
   draw_heap_to("a.png");
   const vision::Picture heap = vision::read_picture(folder_.path() / "a.png");
-  // A bitmap, rows from below: the same pixels in other bytes.
+  // A bitmap with its rows bottom-up: the same pixels in different bytes.
   std::string bitmap = "BM";
   const auto number = [&](std::uint32_t value, int bytes) {
     for (int k = 0; k < bytes; ++k) bitmap += static_cast<char>(value >> (8 * k) & 0xFFU);
@@ -355,7 +355,7 @@ TEST_F(Measure, ACopyInAnotherFormatIsNoSecondHeap) {
   EXPECT_THAT(run({"a.png", "b.bmp"}).err, HasSubstr("b.bmp: the same picture as a.png"));
 }
 
-/// Fields of a line without quotes in it.
+/// Fields of a line without quotes.
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> result(1);
   for (const char letter : line) {

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// The program in a shell, whose redirections a user's are.
+/// The program in a shell, with redirections as users write them.
 class OutputsOf : public CommandTest {
  protected:
   OutputsOf() : CommandTest({}) {
@@ -29,7 +29,7 @@ class OutputsOf : public CommandTest {
     folder_.write("study.toml", calibrate::test::kSphereStudy);
   }
 
-  /// `line` with "repose" for the program; its last command's exit code.
+  /// Runs `line`, in which "repose" is the program; the exit code is that of the last command.
   Finished shell(const std::string& line) const {
     folder_.write("line.sh", "repose() { '" + program().string() + "' \"$@\"; }\n" + line + "\n");
     return run_program("bash", folder_, {"line.sh"});
@@ -78,7 +78,7 @@ TEST_F(OutputsOf, AFileThatCannotBeWrittenDoesNotKeepTheOthers) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "the thread sanitizer begins by writing a file of its own";
 #endif
-  // No file may grow beyond 1 KiB: the JSON is larger, the CSV smaller.
+  // Files are limited to 1 KiB: the JSON is larger, the CSV smaller.
   const Finished full = shell(
       "ulimit -f 1; repose measure heap.png --json x.json --csv x.csv | cat; "
       "exit ${PIPESTATUS[0]}");
@@ -159,7 +159,7 @@ TEST_F(OutputsOf, ItsOwnFilesAreReplaced) {
       EXPECT_EQ(done.exit_code, 0) << words << done.err;
     }
   }
-  // Results that somebody has added stay.
+  // Results that the user has added are kept.
   folder_.write("d.csv", std::string("run,point,a,y\n1,level,0,3\n"));
   EXPECT_EQ(shell("repose design sweep --factor a=0:1 --out d.csv").exit_code, 2);
 }

@@ -12,7 +12,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// Grains whose restitution alone is sought, and few of them wherever there are many.
+/// Grains of which only the restitution is free, with few grains in every experiment.
 const std::string kPlannedStudy = calibrate::test::kSoftBall + R"([contact.particle_wall]
 restitution = 0.5
 sliding_friction = 0.3

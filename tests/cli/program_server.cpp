@@ -12,13 +12,13 @@
 namespace repose::testing {
 namespace {
 
-/// The end of the line to the server at which runs are asked for.
+/// The client's end of the socket on which runs are requested.
 int& to_server() {
   static int end = -1;
   return end;
 }
 
-/// A request is such a text of all that decides over a run.
+/// A request: everything that defines a run, as null-terminated texts.
 std::string packed(const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& text : texts) all += text + '\0';
@@ -39,7 +39,7 @@ std::vector<std::string> environment() {
   return all;
 }
 
-/// `request`: folder, out, err, how many words of the environment follow, these, the command line.
+/// `request`: folder, out, err, number of environment variables, the variables, the command line.
 [[noreturn]] void run(std::vector<std::string> request) {
   if (!enter(request[0], request[1], request[2])) ::_exit(127);
   const auto variables = std::stoul(request[3]);
@@ -54,7 +54,7 @@ std::vector<std::string> environment() {
 [[noreturn]] void serve(int end) {
   for (;;) {
     const ssize_t size = ::recv(end, nullptr, 0, MSG_PEEK | MSG_TRUNC);
-    if (size <= 0) ::_exit(0);  // whoever asked for runs is gone
+    if (size <= 0) ::_exit(0);  // the requesting process is gone
     std::string request(static_cast<std::size_t>(size), '\0');
     ::recv(end, request.data(), request.size(), 0);
     const pid_t child = ::fork();

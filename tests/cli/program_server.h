@@ -7,11 +7,11 @@
 
 namespace repose::testing {
 
-/// Keeps a process from which runs of the program are forked, so that its two hundred libraries are
-/// loaded once and not for each run. To be called before there are other threads.
+/// Starts a process from which runs of the program are forked, so that its two hundred libraries
+/// are loaded once and not for each run. Call it before any other threads exist.
 void start_program_server();
 
-/// Runs the program as run_program() does, in a process of its own, but without loading it.
+/// Runs the program like run_program(), in its own process, but without loading it.
 Finished run_forked(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
 }  // namespace repose::testing

@@ -18,7 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// The hazelnut study's table 2.
+/// Table 2 of the hazelnut study.
 constexpr const char* kHazelnut =
     "run,point,x1,x2,x3,error\n"
     "1,cube,-1,-1,-1,48.10\n2,cube,1,-1,-1,51.65\n3,cube,-1,1,-1,3.63\n4,cube,1,1,-1,3.55\n"
@@ -28,7 +28,7 @@ constexpr const char* kHazelnut =
     "15,centre,0,0,0,0.51\n16,centre,0,0,0,11.03\n17,centre,0,0,0,0.51\n18,centre,0,0,0,2.61\n"
     "19,centre,0,0,0,0.56\n20,centre,0,0,0,0.51\n";
 
-/// A design's table with a column y of made-up results.
+/// The table of a design with a column y of made-up results.
 std::string with_results(const std::string& design) {
   std::istringstream lines(design);
   std::string table, line;
@@ -148,7 +148,7 @@ TEST_F(RegressCommand, EveryErrorOfTheTableIsNamedWithItsLine) {
               AllOf(HasSubstr("ragged.csv:3:"), HasSubstr("ragged.csv:4:")));
 }
 
-/// Two days, the second 4 lower, y = 20 + 2 a + b elsewhere.
+/// Two days, the second 4 lower: y = 20 + 2 a + b on the first.
 std::string two_days(const std::string& name, const std::string& first, const std::string& second) {
   std::string table = "a,b," + name + ",y\n";
   const std::array<std::array<double, 3>, 7> runs = {
@@ -186,7 +186,7 @@ TEST_F(RegressCommand, AColumnOfTextIsBlocks) {
   EXPECT_GT(result(without)["residual_sd"].get<double>(), 1);
   EXPECT_THAT(run(without).out, HasSubstr("not used: column Day (no blocks are wanted"));
 
-  // A number for each day is a factor, unless it is said to be blocks.
+  // Numbered days count as a factor unless declared as blocks.
   folder_.write("runs.csv", two_days("Day", "1", "2"));
   EXPECT_EQ(result(words)["factors"].size(), 3U);
   EXPECT_THAT(result(words)["notes"].dump(), HasSubstr("Day holds numbers and is taken for a"));
@@ -227,7 +227,7 @@ TEST_F(RegressCommand, WhatOtherProgramsWriteBesideARunIsNoFactor) {
   EXPECT_EQ(counted["factors"].size(), 2U);
   EXPECT_EQ(counted["left_out"][0]["what"], "column n");
   EXPECT_THAT(run(words).out, HasSubstr("not used: column n (each number once"));
-  // Two runs are missing, so that no column counts from 1 on.
+  // Two runs are missing, so no column counts up from 1.
   folder_.write("runs.csv", table("StdOrder,Run Order,PtType,Blocks,Comments",
                                   {"5,7,1,1,wet", "1,1,1,1,", "3,2,1,1,", "7,5,1,1,", "4,6,0,1,"}));
   EXPECT_EQ(result(words)["coefficients"], counted["coefficients"]);

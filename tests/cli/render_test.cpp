@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
-/// Three balls on a plane, as a state and as a film of three states.
+/// Three balls on a plane, as a state and as a trajectory of three states.
 class RenderCommand : public CommandTest {
  protected:
   RenderCommand() : CommandTest({"render"}) {

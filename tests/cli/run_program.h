@@ -10,7 +10,7 @@
 
 namespace repose::testing {
 
-/// Starts the built program in a folder and does not wait for it.
+/// Starts the built program in a folder without waiting for it.
 inline pid_t start_repose(const TemporaryFolder& folder, std::vector<std::string> words) {
   words.insert(words.begin(), program());
   std::vector<char*> pointers;

@@ -1,4 +1,4 @@
-// repose calibrate --runs, predict and ask: runs of another program, and a command that makes them.
+// repose calibrate --runs, predict and ask: runs of another program, and a command that makes runs.
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -112,7 +112,7 @@ TEST_F(RunsCommands, AskWritesTheNextRuns) {
   EXPECT_EQ(run({"ask", "study.toml", "--out", "mine.csv"}).exit_code, 2) << "it is somebody's";
 }
 
-/// A command whose fourth run hangs until there is a file "go"; it leaves its process's number.
+/// A command whose fourth run hangs until there is a file "go", and writes its process ID to "pid".
 struct EngineCommands : CommandTest {
   EngineCommands() : CommandTest({"calibrate", "study.toml"}) {
     folder_.write("study.toml",
@@ -129,7 +129,7 @@ echo "{\"aor\": $angle}" > "$folder/reading.json"
 )"));
   }
 
-  /// Starts it, and waits until the fourth run hangs.
+  /// Starts it and waits until the fourth run hangs.
   pid_t start_until_it_hangs() const {
     std::filesystem::remove(path("pid"));
     const pid_t program = start_repose(folder_, {"calibrate", "study.toml"});

@@ -16,7 +16,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A heap five grains high of soft, rough grains: some seconds of work.
+/// A heap of soft, rough grains, five grains high: takes a few seconds.
 const std::string kPicturedStudy = kSoftBalls + kRoughContacts + R"([experiment.drop]
 height_mm = 50
 grains = 2
@@ -25,7 +25,7 @@ grains = 240
 lift_speed_mm_s = 120
 )";
 
-/// One heap for all: calls go on from it in `runs`, and only take pictures.
+/// All tests share one heap: commands reuse it from `runs` and only take pictures.
 class SimulatePictures : public CommandTest {
  protected:
   SimulatePictures() : CommandTest({"simulate", "heap", "study.toml"}) {
@@ -43,7 +43,7 @@ class SimulatePictures : public CommandTest {
   }
   static void TearDownTestSuite() { heap_.reset(); }
 
-  /// A folder with the same runs, for a study that differs in how they are read.
+  /// A folder with the same runs, for a study that evaluates them differently.
   void add_store(Words& words, const std::string& name) const {
     std::filesystem::create_directory(path(name));
     std::filesystem::copy(heap_->path() / "runs" / "runs", path(name) / "runs");
@@ -85,7 +85,7 @@ TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
   EXPECT_EQ(heap["views"], 4);
   EXPECT_EQ(heap["views_refused"], 4 - measured);
   EXPECT_GT(heap["sd_between_views_deg"], 0);
-  // Single views of such a low heap lie up to 4 degrees from the same view of the positions.
+  // Single views of such a low heap are up to 4 degrees off the same view of the positions.
   EXPECT_NEAR(heap["value"].get<double>(), heap["angle_from_positions_deg"].get<double>(), 3.0);
 
   const auto overlay = path("runs/heap_seed_1.overlay.png");
@@ -95,7 +95,7 @@ TEST_F(SimulatePictures, TheValueIsTheMeanOfWhatThePicturesShow) {
   EXPECT_EQ(timeless({"--views", "4", "--threads", "3"}), heap) << "threads do not change it";
 }
 
-/// Two boxes of the same grains.
+/// Two boxes with the same grains.
 class SimulateDrawDown : public CommandTest {
  protected:
   SimulateDrawDown() : CommandTest({"simulate", "draw_down", "study.toml", "--out", "runs"}) {
@@ -130,7 +130,7 @@ TEST_F(SimulatePictures, NoPicturesLeaveTheAngleOfThePositions) {
   const json view = two["repeats"][0]["views"][1];
   EXPECT_EQ(view["azimuth_deg"], 90);
 
-  // It is what the two other commands make of the state, in a picture of another size.
+  // The other two commands give the same from the state, in a picture of another size.
   const Words render = {"render", "runs/heap_seed_1.vtp", "--view", "90", "--out", "side.png"};
   ASSERT_EQ(run_repose(folder_, render).exit_code, 0);
   const Finished measured = run_repose(folder_, {"measure", "side.png", "--json", "-"});

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// A heap of a second's work, so small that it is a layer and has no angle.
+/// A heap that takes a second, so small that it is a layer and has no angle.
 const std::string kStoppedStudy = kSoftNuts + R"([contact.particle_wall]
 restitution = 0.5
 sliding_friction = 0.4
@@ -45,7 +45,7 @@ class SimulateRestart : public CommandTest {
  protected:
   SimulateRestart() : CommandTest({"simulate"}) { folder_.write("study.toml", kStoppedStudy); }
 
-  /// Presses Ctrl-C when `frame` of a repeat is there; the exit code.
+  /// Sends SIGINT (Ctrl-C) once `frame` of a repeat exists; returns the exit code.
   int run_until(const std::string& frame, Words words, int seed = 1) const {
     const pid_t program = start_repose(folder_, with_command(std::move(words)));
     int status = 0;
@@ -58,7 +58,7 @@ class SimulateRestart : public CommandTest {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  /// The files of the store whose names end so.
+  /// Files of the store whose names end in `ending`.
   std::vector<std::filesystem::path> stored(const std::string& ending) const {
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(path("runs/runs"))) {
@@ -67,7 +67,7 @@ class SimulateRestart : public CommandTest {
     return files;
   }
 
-  /// The texts of all files in a folder but those that tell what a clock measured.
+  /// Texts of all files in a folder, without timings.
   std::map<std::string, std::string> texts_in(const std::string& name) const {
     std::map<std::string, std::string> texts;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path(name))) {
@@ -94,7 +94,7 @@ const Words kHeap = {"heap",           "study.toml", "--repeats", "2", "--thread
                      "--trajectory-s", "0.05",       "--views",   "1", "--out",     "runs"};
 
 TEST_F(SimulateRestart, AnInterruptedHeapGoesOnToTheSameBytes) {
-  // Some frames are of the filling, later ones of the lift.
+  // The first frames are of the filling, later ones of the lift.
   for (const char* frame : {"frame_00002.vtp", "frame_00006.vtp", "frame_00010.vtp"}) {
     ASSERT_EQ(run_until(frame, kHeap), 130);
     EXPECT_THAT(stored(".restart.vtp"), SizeIs(1));
@@ -151,7 +151,7 @@ TEST_F(SimulateRestart, ARunThatLeftNothingDoesNotBlockItsFolder) {
   const Words refused = {"drop", "study.toml", "--out",
                          "runs", "--set",      "simulation.timestep_s=.5"};
   ASSERT_EQ(run(refused).exit_code, 2);
-  // Slides at once, and is stored as such.
+  // The grain slides at once, which is stored as the outcome.
   const Words unread = {"tilt", "study.toml", "--out",
                         "runs", "--set",      "experiment.tilt.start_deg=80"};
   const Finished failed = run(unread);
@@ -218,7 +218,7 @@ TEST_F(SimulateRestart, RunsAreFoundAgainInAnotherStudy) {
   ASSERT_EQ(run(one).exit_code, 0);
   const std::size_t before = stored(".json").size();
   ASSERT_EQ(before, 2U);
-  // Another file, and with it another study, but the same drops.
+  // Another file, hence another study, but the same drops.
   folder_.write("other.toml", kStoppedStudy + "[simulation]\nseed = 1\n");
   one[1] = "other.toml";
   std::filesystem::remove(path("runs/run.json"));

@@ -27,7 +27,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
-/// A soft ball and short ways: a run takes a fraction of a second.
+/// A soft ball and short distances: a run takes a fraction of a second.
 const std::string kSimulatedStudy = calibrate::test::kSoftBall + R"([contact.particle_wall]
 restitution = 0.5
 sliding_friction = 0.4
@@ -148,7 +148,7 @@ TEST_F(Simulate, AnEngineThatThereIsNotIsAnError) {
   EXPECT_THAT(processes.err, HasSubstr("engine.processes = 0"));
 }
 
-// Our own engine keeps them, where they fell.
+// Our own engine keeps them where they fell.
 TEST_F(Simulate, GrainsThatLiggghtsLosesOffThePlateAreWarnedOf) {
   if (run_program("liggghts", {}, {"-in", "/dev/null", "-log", "none"}).exit_code != 0) {
     GTEST_SKIP() << "liggghts is not installed. Fix: apt-get install liggghts";
@@ -323,7 +323,7 @@ TEST_F(Simulate, HeapsWhoseAngleDependsOnTheWindowAreWarnedOf) {
     words.insert(words.end(), {"--seed", seed, "--json", "-"});
     const json heap = json::parse(run(words).out);
     const json& readings = heap["repeats"][0]["readings"];
-    // A layer, or one that ends too steep for a window so narrow.
+    // A layer, or a heap whose flank ends too steeply for such a narrow window.
     if (heap["value"].is_null() || readings["inner_window_deg"].is_null()) continue;
     const double apart =
         std::abs(heap["value"].get<double>() - readings["inner_window_deg"].get<double>());
@@ -345,7 +345,7 @@ TEST_F(Simulate, AProtocolThatCannotBeRunIsToldOnce) {
 }
 
 TEST_F(Simulate, AnInterruptionLeavesNothingHalfWritten) {
-  // Far longer than the first frame takes to appear.
+  // Much longer than the first frame takes to appear.
   const pid_t program =
       start_repose(folder_, {"simulate", "heap", "study.toml", "--out", "runs", "--trajectory-s",
                              "0.001", "--set", "contact.particle_particle.restitution=0.2", "--set",

@@ -20,9 +20,9 @@ TEST(Adhesion, IsPullOffForceByWeight) {
   EXPECT_NEAR(bond_number(kDiameter_m, kDensity, kAdhesion), pull_off / weight, 1e-12);
 }
 
-// Dry powders turn cohesive somewhere about 0.1 mm (Visser 1989, Powder Technology 58, 1; group C
-// of Geldart 1973, Powder Technology 7, 285, below some 0.03 mm); sand of half a millimetre, seeds
-// and beads flow freely.
+// Dry powders become cohesive at about 0.1 mm (Visser 1989, Powder Technology 58, 1; group C of
+// Geldart 1973, Powder Technology 7, 285, below some 0.03 mm); sand of half a millimetre, seeds and
+// beads flow freely.
 TEST(Adhesion, IsSaidOfPowdersAndNotOfGrains) {
   EXPECT_THAT(adhesion_warning(ball_m3(5e-5), 1000).value_or(""),
               AllOf(HasSubstr("grains of 0.05 mm and 1000 kg/m3 would stick"),

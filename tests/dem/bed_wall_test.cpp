@@ -53,7 +53,7 @@ TEST(BedWall, RefusesSpheresTooWideForItsTile) {
   EXPECT_THROW(BedFacets{bed_of({})}, base::InputError);
 }
 
-/// What a ball that strikes another one aslant does.
+/// A ball after striking another one obliquely.
 Grain struck(bool is_bed) {
   const Material glass{"glass", 2500, 1e8, .25};
   const Material heavy{"heavy glass", 2500e9, 1e8, .25};

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 constexpr int kGrains = 16;
 
-/// Every number of both must be the same, to the last bit: of all grains, or of the first ones.
+/// All numbers of the first `grains` grains must be bit-identical.
 void expect_same(const Simulation& one, const Simulation& other, std::size_t grains) {
   const Checkpoint a = one.checkpoint();
   const Checkpoint b = other.checkpoint();
@@ -42,7 +42,7 @@ void expect_same(const Simulation& one, const Simulation& other) {
   expect_same(one, other, static_cast<std::size_t>(one.grain_count()));
 }
 
-/// Columns beside each other on a wide floor, so many that each thread has some to list.
+/// Columns side by side on a wide floor, so many that each thread has some to list.
 Simulation many_columns(int threads) {
   constexpr int kColumns = 24;
   SimulationSetup setup = packing_setup();
@@ -217,7 +217,7 @@ TEST(Bodies, GrainsBelowTheFloorLeave) {
   for (int k = 0; k < 3; ++k) {
     EXPECT_FALSE(simulation.is_present(k));
     EXPECT_LT(simulation.grain(k).position.z(), -.05);
-    EXPECT_GT(simulation.grain(k).position.z(), -.06);  // and is moved no more
+    EXPECT_GT(simulation.grain(k).position.z(), -.06);  // and no longer moved
   }
   EXPECT_EQ(simulation.energies().kinetic_j, 0);
 }

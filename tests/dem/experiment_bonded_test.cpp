@@ -44,7 +44,7 @@ TEST(Bonded, GrainsTouchAndLieSideBySide) {
     }
   }
   EXPECT_NEAR(gap, 0, 1e-12);
-  // The row is level, across the long axes, and about the centre of mass.
+  // The row is horizontal, perpendicular to the long axes, and centred on the centre of mass.
   const Vector row = lying * (body.spheres[27].centre - body.spheres[5].centre);
   EXPECT_NEAR(row.x(), 4 * 8.92e-3, 1e-12);
   EXPECT_NEAR(row.y(), 0, 1e-12);

@@ -19,7 +19,7 @@ constexpr double kBall_m = .02;
 /// Beverloo's k d.
 constexpr double kGap_m = 1.4 * kBall_m;
 
-/// Balls of 20 mm, soft and damped so that runs are short.
+/// Balls of 20 mm, soft and damped to keep runs short.
 Model balls(const PairCoefficients& between = {.1, .4, .1}) {
   Model model = test::sphere_bench();
   model.grain = sphere_shape(.5 * kBall_m);
@@ -41,7 +41,7 @@ std::string no_reading_of(const std::function<void()>& run) {
   return "a reading";
 }
 
-/// Shared by the tests that only look at it.
+/// Shared by the tests that only inspect it.
 const Repeat& usual() {
   static const Repeat repeat = run_draw_down(balls(), kBoxes, 1);
   return repeat;
@@ -81,7 +81,7 @@ TEST(DrawDown, FrictionKeepsGrainsAboveTheSlot) {
             usual().value.value() + 2);
 }
 
-/// Mass through a slot by the law of Beverloo, Leniger and van de Velde (1961), The flow of
+/// Mass flow through a slot by the law of Beverloo, Leniger and van de Velde (1961), The flow of
 /// granular solids through orifices, Chemical Engineering Science 15, 260, in its form for slots
 /// (Nedderman, Tuzun, Savage and Houlsby 1982, Chemical Engineering Science 37, 1597):
 ///
@@ -90,9 +90,9 @@ TEST(DrawDown, FrictionKeepsGrainsAboveTheSlot) {
 ///     r bulk density, L length of the slot, W its width, d diameter of the grains, k 1.4 (1.2
 ///     to 1.6)
 ///
-/// Holds for W above 5 d or so. Centres of grains come no nearer than d / 2 to a pane, of a slot
-/// that ends in the open no nearer than k d / 2: from pane to pane L is between the depth of the
-/// box and that less k d.
+/// Holds for W above about 5 d. Centres of grains come no closer than d / 2 to a pane, and no
+/// closer than k d / 2 to an open end of a slot: between panes L is therefore between the depth of
+/// the box and that minus k d.
 double beverloo_g_s(const Repeat& repeat, const DrawDownProtocol& boxes, double length_m) {
   constexpr double kRate = 1.03;
   const double bulk_g_m3 =
@@ -103,7 +103,7 @@ double beverloo_g_s(const Repeat& repeat, const DrawDownProtocol& boxes, double 
 
 TEST(DrawDowns, RunOutAsFastAsBeverloosLawSays) {
   Model model = balls({.1, .3, .2});
-  model.grain_wall = {.1, .05, .2};  // the law leaves friction at the panes out
+  model.grain_wall = {.1, .05, .2};  // the law neglects friction at the panes
   std::vector<double> of_the_law;
   for (const double slot_m : {.1, .14}) {
     const DrawDownProtocol boxes{
@@ -114,8 +114,8 @@ TEST(DrawDowns, RunOutAsFastAsBeverloosLawSays) {
     EXPECT_GT(rate_g_s, beverloo_g_s(repeat, boxes, boxes.depth_m - kGap_m)) << slot_m;
     of_the_law.push_back(rate_g_s / beverloo_g_s(repeat, boxes, boxes.depth_m));
   }
-  // Between these widths the law's rate rises by 1.94; in proportion to the width it would rise by
-  // 1.4, which is .72 of that, and with the power 5/2 by 2.32, 1.2 of it.
+  // Between these widths the law's rate rises by a factor of 1.94; proportional to the width it
+  // would rise by 1.4, which is .72 of that, and with the power 5/2 by 2.32, 1.2 of it.
   EXPECT_NEAR(of_the_law[1] / of_the_law[0], 1, .15);
 }
 

@@ -17,7 +17,7 @@ TEST_P(SphereDrop, ReboundsByTheSquareOfItsRestitution) {
   const double e = GetParam();
   model.grain_wall.restitution = e;
   const Repeat repeat = run_drop(model, {.height_m = .5, .grains = 2}, 1);
-  // .13 mm of it is the overlap that the rebound starts from; a hundredth for the time step.
+  // .13 mm of it is the overlap from which the rebound starts; a hundredth is for the time step.
   EXPECT_NEAR(repeat.value.value(), 500 * e * e, .01 * 500 * e * e + .2);
   EXPECT_NEAR(repeat.readings.at("sd_mm"), 0, 1e-6);
   EXPECT_NEAR(repeat.readings.at("lowest_point_rise_mm"),
@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Drop, SphereDrop, ::testing::Values(.05, .1, .3, .5, .9
 
 TEST(Drop, ClumpsReboundLessThanSpheresAndScatter) {
   const Repeat repeat = run_drop(test::clump_bench(), {.height_m = .5, .grains = 6}, 1);
-  // LIGGGHTS on the same clump: 29.3 mm at 45 degrees, 32.1 flat; a sphere 48.
+  // LIGGGHTS with the same clump: 29.3 mm at 45 degrees, 32.1 flat; a sphere 48.
   EXPECT_GT(repeat.value.value(), 15);
   EXPECT_LT(repeat.value.value(), 40);
   EXPECT_GT(repeat.readings.at("sd_mm"), .5);
@@ -41,7 +41,7 @@ TEST(Drop, TheLongestAccurateStepIsShortEnough) {
   const DropProtocol protocol{.height_m = .5, .grains = 5};
   const double usual = run_drop(model, protocol, 1).value.value();
   model.timestep_fraction = .1;
-  // Measured with the nut of the sample, means of ten falls, restitution .05 to .9: at most .15 mm.
+  // Measured with the sample's nut, as means of ten falls at restitution .05 to .9: at most .15 mm.
   EXPECT_NEAR(usual, run_drop(model, protocol, 1).value.value(), .2);
 }
 
@@ -87,7 +87,7 @@ TEST(Drop, GrainsDoNotFeelEachOther) {
   const Repeat three = run_drop(model, {.height_m = .1, .grains = 3}, 5);
   const Repeat one = run_drop(model, {.height_m = .1, .grains = 1}, 5);
   EXPECT_FALSE(one.readings.number("sd_mm")) << "of one grain nothing is known";
-  // The same first pose; the run of three only lasts longer.
+  // The same first pose; only the run of three lasts longer.
   EXPECT_EQ(one.state->grain_count(), 1);
   EXPECT_EQ(three.state->grain_count(), 3);
   EXPECT_GE(three.steps, one.steps);
@@ -154,7 +154,7 @@ TEST(Drop, FramesShowTheGrainFromWhereItIsLetGoUntilItLiesStill) {
   EXPECT_NEAR(heights_m.front(), .1, 1e-9);
   EXPECT_NEAR(heights_m[100], .1 - .5 * kStandardGravity_m_s2 * .01, 1e-5) << "after 0.1 s of fall";
   EXPECT_NEAR(heights_m.back(), 0, 1e-5);
-  // The first rebound is the one that is read: up to its top from its lowest place.
+  // The first rebound is measured, from its lowest position to its top.
   const auto lowest = std::min_element(heights_m.begin(), heights_m.begin() + 160);
   EXPECT_NEAR(1e3 * *std::max_element(lowest, heights_m.end()),
               read.readings.at("above_first_touch_mm"), .05);

@@ -24,7 +24,7 @@ TEST(HeapEnvelope, IsTheUpperSideOfASphere) {
     const std::vector<double>& height = envelope.height_m;
     const auto middle = std::max_element(height.begin(), height.end()) - height.begin();
     EXPECT_NEAR(width_m(envelope), .02, 1.1 * envelope.column_m);
-    // The outermost columns are a rounding from the sphere's side, where it is upright.
+    // The outermost columns are within rounding of the sphere's side, where it is vertical.
     for (std::size_t k = 1; k + 1 < height.size(); ++k) {
       const double off = (static_cast<double>(k) - static_cast<double>(middle)) * envelope.column_m;
       EXPECT_NEAR(height[k], .01 + std::sqrt(std::max(0.0, 1e-4 - off * off)), 1e-9);
@@ -41,7 +41,7 @@ TEST(HeapEnvelope, HasAColumnForEachTwentiethOfAMeanRadius) {
 }
 
 TEST(HeapEnvelope, FirstLooksAlongYThenRoundCounterClockwise) {
-  // Rows along x, y, and from +x to +y: each is short when looked along.
+  // Rows along x, along y, and from +x to +y: each looks short when viewed along its axis.
   const auto row = [](const Vector& along) {
     std::vector<ClumpSphere> spheres;
     for (int k = -20; k <= 20; ++k) {

@@ -13,7 +13,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Balls of 20 mm, soft so that runs are short.
+/// Balls of 20 mm, soft to keep runs short.
 Model balls_to_fill() {
   Model model = test::sphere_bench();
   model.grain = sphere_shape(.01);
@@ -40,8 +40,8 @@ TEST(FilledTube, ItsDensityIsThatOfTheGrainsCountedInTheTube) {
 TEST(FilledTubes, BallsPackAsPouredBallsDo) {
   Model model = balls_to_fill();
   model.grain_material.young_modulus_pa = 1e7;
-  // Poured loosely into a tube of 7.5 diameters balls fill .568 of it (Zou and Yu 1995, Chemical
-  // Engineering Science 50, 1504); a tube as low as this one lacks half a layer at its bottom.
+  // Balls poured loosely into a tube of 7.5 diameters fill .568 of it (Zou and Yu 1995, Chemical
+  // Engineering Science 50, 1504); a tube as low as this one lacks half a layer at the bottom.
   EXPECT_NEAR(run_fill(model, kTubeToFill, 1).readings.at("solid_fraction"), .568 * (1 - .01 / .15),
               .03);
 }
@@ -54,7 +54,7 @@ TEST(FilledTubes, FrictionMakesLooserPackings) {
             run_fill(smooth, kTubeToFill, 1).value.value() - 20);
 }
 
-// 2 kg/s: as long as the tube's 1.4 kg and what is heaped over its rim take.
+// 2 kg/s: the time for the 1.4 kg in the tube and the heap above its rim.
 TEST(FilledTubes, PouredSlowlyTheyTakeTheirTimeAndLieDenser) {
   FillProtocol slow = kTubeToFill;
   slow.pour_kg_s = 2;
@@ -102,10 +102,10 @@ TEST(FilledTube, ItsLevelIsAtTheRimGiveOrTakeAGrain) {
 
 TEST(FillingHeight, IsTheMeanOverTheTube) {
   EXPECT_EQ(filling_height_m({}, .1), 0);
-  // A sphere of the tube's width whose middle is at 0.2 m: a dome of mean height 2/3 r.
+  // A sphere as wide as the tube, centred at 0.2 m: a dome of mean height 2/3 r.
   const std::vector<ClumpSphere> dome = {{.centre = {0, 0, .2}, .radius = .05}};
   EXPECT_NEAR(filling_height_m(dome, .1), .2 + .05 * 2 / 3, 1e-4);
-  // One that covers a quarter of the tube, and one below it that does not show.
+  // One that covers a quarter of the tube, and one hidden below it.
   const std::vector<ClumpSphere> ball = {{.centre = {.01, .02, .2}, .radius = .025},
                                          {.centre = {.01, .02, .1}, .radius = .02}};
   EXPECT_NEAR(filling_height_m(ball, .1), (.2 + .025 * 2 / 3) / 4, 5e-4);

@@ -22,7 +22,7 @@ HeapProtocol small_tube() {
 TEST(Heap, FillsTheTubeAndLiftsItOff) {
   const Repeat repeat = run_heap(test::soft_bench(), small_tube(), 1);
   const auto& readings = repeat.readings;
-  // Spheres of 19.3 mm in a tube of 70 mm fill it by .40 to .60.
+  // Spheres of 19.3 mm in a tube of 70 mm have a solid fraction of .40 to .60.
   const double fraction = readings.at("grains") * 3.746e-6 / (std::numbers::pi * .035 * .035 * .1);
   EXPECT_GT(fraction, .4);
   EXPECT_LT(fraction, .6);
@@ -110,7 +110,7 @@ TEST(Heap, GrainsThatFallOffTheEdgeAreCounted) {
 TEST(Heap, GrainsThatHangInTheTubeAreNoReading) {
   HeapProtocol protocol = small_tube();
   protocol.tube_height_m = .06;
-  // Of this seed three spheres make an arch, and go up with the tube.
+  // With this seed three spheres form an arch and rise with the tube.
   const std::string message =
       error_of<NoMeasurement>([&] { run_heap(test::soft_bench(), protocol, 3); });
   EXPECT_NE(message.find("hang in the tube"), std::string::npos) << message;

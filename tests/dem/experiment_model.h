@@ -9,7 +9,7 @@
 
 namespace repose::dem::test {
 
-/// A hazelnut as a sphere of equal volume, on steel. Every coefficient may be changed.
+/// A hazelnut as a sphere of equal volume, on steel. Tests may change any coefficient.
 inline Model sphere_bench() {
   Model model;
   model.grain = sphere_shape(9.6349e-3);
@@ -20,7 +20,7 @@ inline Model sphere_bench() {
   return model;
 }
 
-/// Soft spheres that make a heap, and creep.
+/// Soft spheres that form a heap, and creep.
 inline Model soft_bench() {
   Model model = sphere_bench();
   model.stiffness_factor = 1e-3;
@@ -29,7 +29,7 @@ inline Model soft_bench() {
   return model;
 }
 
-/// Spheres on the long axis (x) of a spheroid, each the largest inside it.
+/// Spheres on the long axis (x) of a spheroid, each as large as fits inside it.
 inline ClumpShape spheroid_clump(int count) {
   const double a = 11.24e-3;
   const double b = 8.92e-3;
@@ -51,7 +51,7 @@ inline Model clump_bench() {
   return model;
 }
 
-/// All positions and orientations equal bit for bit.
+/// Whether all positions and orientations are bit-identical.
 inline bool same_state(const Simulation& a, const Simulation& b) {
   if (a.grain_count() != b.grain_count() || a.step() != b.step()) return false;
   for (int k = 0; k < a.grain_count(); ++k) {

@@ -11,7 +11,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Glass beads of 6 mm, soft so that runs are short.
+/// Glass beads of 6 mm, soft to keep runs short.
 Model beads() {
   Model model = test::sphere_bench();
   model.grain = sphere_shape(.003);
@@ -52,7 +52,7 @@ TEST(RollOnGrains, TellsRollingFrictionAlone) {
 }
 
 TEST(RollOnGrains, WithoutResistanceBallsLeaveHollowsNoEarlierThanFromCloseOnes) {
-  // asin(1/3) = 19.5 degrees between two balls that touch; a random bed's hollows are deeper.
+  // asin(1/3) = 19.5 degrees between two touching balls; the hollows of a random bed are deeper.
   Model model = beads();
   model.grain_grain.rolling_friction = 0;
   EXPECT_GT(roll_deg(model), 19.5);
@@ -66,7 +66,7 @@ TEST(DropOnGrains, TellsRestitution) {
   EXPECT_GT(drop_mm(high), 8 * drop_mm(low));
 }
 
-/// All readings of one small run each.
+/// All readings of one small run of each experiment.
 std::vector<double> small_runs(const Model& model) {
   return {run_tilt_on_grains(model, {.rate_deg_s = 10, .places = 2}, 1).value.value(),
           run_roll_on_grains(model, {.rate_deg_s = 10, .places = 2}, 1).value.value(),

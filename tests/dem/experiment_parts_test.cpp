@@ -54,12 +54,12 @@ TEST(WallParts, EachPairHasItsOwnLaw) {
   EXPECT_NEAR(table.law(kGrainMaterial, incline).reduced_young_pa, 1 / compliance, 1);
 }
 
-// A ball that rolls down an incline and along a flat of other friction, by energy and with what the
-// foot takes: in the torque-resisted roll of both stretches v^2 = 10/7 g s (sin - mu_r cos), and
-// where the slope ends the ball lands on the flat with r = (5 cos + 2) / 7 - 5/7 mu_r sin of its
-// speed (angular momentum about the new point of contact, less the flat's rolling friction on the
-// impulse):  L = r^2 S' (sin - mu_incline cos) / mu_flat + R tan(slope / 2),
-// S' = S - R tan(slope / 2).
+// A ball that rolls down an incline and along a flat of different friction, by energy and with the
+// loss at the foot. Against the rolling torque v^2 = 10/7 g s (sin - mu_r cos) on both stretches;
+// at the foot the ball lands on the flat and keeps r = (5 cos + 2) / 7 - 5/7 mu_r sin of its speed
+// (angular momentum about the new point of contact, less the flat's rolling friction on the
+// impulse):
+// L = r^2 S' (sin - mu_incline cos) / mu_flat + R tan(slope / 2), S' = S - R tan(slope / 2).
 double by_energy_and_foot_mm(double slope_deg, double release_m, double radius_m, double mu_incline,
                              double mu_flat) {
   const double slope = slope_deg * std::numbers::pi / 180;
@@ -126,7 +126,7 @@ TEST(WallParts, PanesCarryGrainsAndFloorsDoNotKnowIt) {
   model.grain_grain = {.1, .4, .1};
   const Repeat smooth = run_draw_down(with_part(model, WallPart::pane, {.1, 0, 0}), boxes, 1);
   const Repeat rough = run_draw_down(with_part(model, WallPart::pane, {.1, 1, .3}), boxes, 1);
-  // Friction at the panes holds back part of what would run out, and slopes are steeper.
+  // Friction at the panes holds back part of the discharge, and slopes are steeper.
   EXPECT_GT(smooth.value.value(), rough.value.value() + 2);
 }
 

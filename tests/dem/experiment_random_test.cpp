@@ -6,8 +6,7 @@ namespace repose::dem {
 namespace {
 
 TEST(Random, GivesTheSameNumbersEverywhere) {
-  // The 10000th number of the engine is fixed by the standard ([rand.predef]); ours are its top 53
-  // bits.
+  // The engine's 10000th number is fixed by the standard ([rand.predef]); ours are its top 53 bits.
   Random random(5489);
   double last = 0;
   for (int k = 0; k < 10000; ++k) last = random.uniform();
@@ -42,7 +41,7 @@ TEST(Random, OrientationsFavourNoDirection) {
     spread += axis * axis.transpose() / kCount;
     turned += orientation.w() * orientation.w() / kCount;
   }
-  // Standard errors: 1 / sqrt(3 N) = .004 of a mean, .0021 of a mean square; four of them.
+  // Standard errors: 1 / sqrt(3 N) = .004 of a mean, .0021 of a mean square; limits are four.
   EXPECT_LT(mean.cwiseAbs().maxCoeff(), .017);
   EXPECT_LT((spread - Eigen::Matrix3d::Identity() / 3).cwiseAbs().maxCoeff(), .009);
   EXPECT_NEAR(turned, .25, .009);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRestingRadius_m = 5e-3;
 
-/// A soft ball that lies on a plate and spins.
+/// A soft ball lying on a plate and spinning.
 Simulation spinning_ball(RollingModel rolling, const Vector& spin) {
   Model model = test::soft_bench();
   model.grain = sphere_shape(kRestingRadius_m);
@@ -22,7 +22,7 @@ Simulation spinning_ball(RollingModel rolling, const Vector& spin) {
   return simulation;
 }
 
-/// When it is at rest, s.
+/// The time at which it is at rest, s.
 std::optional<double> rest_s(Simulation& simulation, double longest_s) {
   RestTest rest(simulation.setup());
   const auto steps = static_cast<int>(rest.interval_s() / simulation.setup().timestep_s) + 1;
@@ -43,7 +43,7 @@ TEST(RestTest, SpinOnTheSpotDoesNotCountWhereNothingResistsIt) {
   }
 }
 
-/// As in the apron of a heap: one that barely touches its neighbour, too.
+/// As in the apron of a heap: nor if it barely touches its neighbour.
 TEST(RestTest, SpinOnTheSpotDoesNotCountForGrazingANeighbour) {
   Simulation simulation = spinning_ball(RollingModel::relative_constant_torque, {0, 0, 20});
   const double apart_m = 2 * kRestingRadius_m - 1e-9;
@@ -64,13 +64,13 @@ TEST(RestTest, SpinThatMovesAGrainShowsInItsVelocity) {
        {RollingModel::relative_constant_torque, RollingModel::elastic_plastic}) {
     Simulation simulation = spinning_ball(rolling, {0, 20, 20});
     EXPECT_TRUE(rest_s(simulation, 2)) << static_cast<int>(rolling);
-    // 2/7 of the spin goes into rolling, which mu_r g 5/7 ends.
+    // 2/7 of the spin goes into rolling, which is decelerated by mu_r g 5/7.
     EXPECT_GT(simulation.grain(0).position.x(), 1e-4);
     EXPECT_LT(simulation.grain(0).velocity.norm(), 1e-3);
   }
 }
 
-/// Heaps of all laws that resist rolling come to rest, and stay as they are.
+/// With laws that resist rolling, heaps come to rest and remain so.
 TEST(RestTest, HeapOfRelativeConstantTorqueRestsForGood) {
   Model model = test::soft_bench();
   model.grain = sphere_shape(kRestingRadius_m);

@@ -14,7 +14,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// With soft spheres a heap of a second's work.
+/// With soft spheres, makes a heap within a second.
 HeapProtocol tube_on_small_plate() {
   HeapProtocol protocol;
   protocol.tube_diameter_m = .07;
@@ -26,7 +26,7 @@ HeapProtocol tube_on_small_plate() {
 
 std::string bits_of_end(const Repeat& repeat) { return state_text(*repeat.state, "{}"); }
 
-/// Some of the restart points of each stage, as a file would hold them.
+/// Some restart points of each stage, as a file would store them.
 std::map<int, std::vector<Restart>> restart_points(Repeat& whole) {
   std::map<int, std::vector<Restart>> points;
   int looks = 0;
@@ -59,7 +59,7 @@ TEST(HeapRestart, GoesOnToTheSameBytesFromEveryStage) {
 }
 
 TEST(HeapRestart, GoesOnFromWithinALongStretch) {
-  // So many grains' steps lie between two looks that some are taken within a stretch.
+  // So many grain steps lie between two checks that some restart points fall within a stretch.
   Model model = test::soft_bench();
   model.stiffness_factor = .05;
   Repeat whole;
@@ -88,7 +88,7 @@ TEST(HeapRestart, IsKeptWhenTheRunIsBrokenOff) {
   EXPECT_EQ(saved, 1);
 }
 
-/// Times of the frames of a run, apart for each of its simulations.
+/// Frame times of a run, separately for each of its simulations.
 struct Frames {
   std::vector<std::vector<double>> times_s;
 
@@ -105,7 +105,7 @@ struct Frames {
 
 TEST(Frames, AreTakenAtTheFirstStepAtTheirTimes) {
   Frames frames;
-  // Less than the time between two reports, and no multiple of the time step.
+  // Shorter than the time between two reports, and not a multiple of the time step.
   const double interval_s = 1.2345e-3;
   const Repeat repeat =
       run_heap(test::soft_bench(), tube_on_small_plate(), 1, {}, frames.record(interval_s));
@@ -113,7 +113,7 @@ TEST(Frames, AreTakenAtTheFirstStepAtTheirTimes) {
   for (const auto& times_s : frames.times_s) {
     ASSERT_GT(times_s.size(), 100U);
     for (std::size_t k = 0; k < times_s.size(); ++k) {
-      // Steps of grains at rest are up to 1.6 times as long as the shortest.
+      // Time steps of grains at rest are up to 1.6 times as long as the shortest.
       const double late_s = times_s[k] - static_cast<double>(k) * interval_s;
       EXPECT_GE(late_s, -1e-6 * repeat.timestep_s);
       EXPECT_LE(late_s, 1.7 * repeat.timestep_s);

@@ -9,7 +9,7 @@
 namespace repose::dem {
 namespace {
 
-/// Where a sphere stops by its energy: L = S (sin - mu_r cos) / mu_r, nothing lost at the corner.
+/// Rolling distance by energy: L = S (sin - mu_r cos) / mu_r, without loss at the corner.
 double by_energy_mm(double release_m, double rolling_friction) {
   const double angle = 20 * std::numbers::pi / 180;
   return 1e3 * release_m * (std::sin(angle) - rolling_friction * std::cos(angle)) /
@@ -18,7 +18,7 @@ double by_energy_mm(double release_m, double rolling_friction) {
 
 struct RollCase {
   double rolling_friction;
-  double liggghts_mm;  ///< the same run there
+  double liggghts_mm;  ///< the same run in LIGGGHTS
 };
 
 class SphereRoll : public ::testing::TestWithParam<RollCase> {};
@@ -46,7 +46,7 @@ TEST(Roll, WhatTheCornerTakesIsSmallOnAGentleSlope) {
   EXPECT_NEAR(repeat.value.value(), energy_mm, .02 * energy_mm);
 }
 
-/// Its distance goes to 0, and stays there: no step where tan 20 = .364 is passed.
+/// Its distance decreases to 0 without a jump at tan 20 = .364, and stays there.
 TEST(Roll, AGrainThatStaysOnTheInclineCountsAsNothing) {
   Model model = test::sphere_bench();
   model.grain_wall.rolling_friction = .35;
@@ -119,7 +119,7 @@ TEST(Roll, AGrainThatDoesNotStopIsNoReadingAndSaysWhatWouldStopIt) {
   EXPECT_NE(message.find("a rolling_model other than none"), std::string::npos) << message;
 }
 
-/// Its damper takes speed at each landing: said in dem/THEORY.md, and warned of by "hop_mm".
+/// Its damper takes speed at each landing: see dem/THEORY.md; "hop_mm" triggers a warning.
 TEST(Roll, ElasticPlasticHopsTakeSpeed) {
   Model model = test::sphere_bench();
   model.grain = sphere_shape(5e-3);
@@ -132,7 +132,7 @@ TEST(Roll, ElasticPlasticHopsTakeSpeed) {
   model.grain_wall.restitution = .9;
   const Repeat hops = run_roll(model, {}, 1);
   EXPECT_NEAR(hops.value.value(), 1840, 40);
-  // It comes down at .84 m/s, sin 20 of which is into the flat: (.9 * .29 m/s)^2 / 2 g.
+  // It lands at .84 m/s, of which sin 20 is normal to the flat: (.9 * .29 m/s)^2 / 2 g.
   EXPECT_NEAR(hops.readings.at("hop_mm"), 3.4, .3);
 }
 
@@ -147,7 +147,7 @@ TEST(Roll, ClumpsComeToRestWhereTheirSeedSays) {
   EXPECT_NE(one.value.value(), run_roll(model, {}, 2).value.value());
 }
 
-/// Mean distance of some clumps, in steps that are a fraction of the longest.
+/// Mean distance of several clumps, with steps that are a fraction of the longest.
 double distance_mm(Model model, double timestep_fraction) {
   constexpr int kClumps = 4;
   model.timestep_fraction = timestep_fraction;

@@ -116,8 +116,8 @@ TEST(ExperimentTable, CostsGrowWithStiffnessAndGrains) {
     EXPECT_GT(cost_s, 0) << entry.name;
     Model soft = model;
     soft.stiffness_factor = .01;
-    // Impacts, and with them time steps, last as E^(-2/5) (Hertz). Where nothing but impacts is
-    // computed, there are as many steps.
+    // The duration of impacts, and so the time step, goes as E^(-2/5) (Hertz). If only impacts are
+    // computed, the number of steps is the same.
     const double ratio = of_impacts.contains(&entry) ? 1 : std::pow(.01, .4);
     EXPECT_NEAR(entry.cost_s(soft, entry.usual) / cost_s, ratio, 1e-6) << entry.name;
   }

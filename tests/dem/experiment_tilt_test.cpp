@@ -18,13 +18,13 @@ TEST_P(TiltFriction, IsTheAngleOfSliding) {
   model.grain_wall.sliding_friction = GetParam();
   const Repeat repeat = run_tilt(model, {}, 1);
   EXPECT_NEAR(repeat.value.value(), friction_deg(GetParam()), .02);
-  // Slip takes time to show: g sin(rate t) t^2 / 6 = .5 mm after .2 s, .4 degrees.
+  // Slip becomes visible with a delay: g sin(rate t) t^2 / 6 = .5 mm after .2 s, .4 degrees.
   EXPECT_NEAR(repeat.readings.at("half_mm_slip_deg"), friction_deg(GetParam()) + .4, .05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tilt, TiltFriction, ::testing::Values(.1, .39, .8));
 
-/// Contacts that lose little rattle on a plate about to let go, and creep below that.
+/// Contacts that dissipate little rattle on a plate about to release them, and creep before that.
 TEST(Tilt, RestitutionDoesNotMatter) {
   Model glass = test::sphere_bench();
   glass.grain = sphere_shape(5e-3);
@@ -125,7 +125,7 @@ TEST(Tilt, FramesShowThePlateFromLevelUntilTheGrainsHaveSlid) {
   EXPECT_NEAR(angles_deg.front(), 0, 1e-9);
   EXPECT_GT(angles_deg.back(), read.value.value());
   EXPECT_GT(along_m.back() - along_m.front(), 9 * model.grain.reach_m());
-  // It slides when the angle is the one that is read, and not before.
+  // It slides at the angle that is reported, and not before.
   for (std::size_t k = 0; k < angles_deg.size(); ++k) {
     if (angles_deg[k] > read.value.value() - .2) break;
     EXPECT_NEAR(along_m[k], along_m.front(), 1e-5) << angles_deg[k];

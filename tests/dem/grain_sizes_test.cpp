@@ -19,7 +19,7 @@ using ::testing::SizeIs;
 
 double volume_m3(double radius_m) { return 4. / 3 * std::numbers::pi * std::pow(radius_m, 3); }
 
-/// Mean and standard deviation of the sizes, of a sphere of radius 1.
+/// Mean and standard deviation of the sizes for a sphere of radius 1.
 std::pair<double, double> moments_of_sizes(double sd_fraction) {
   const std::vector<ClumpShape> classes = size_classes(sphere_shape(1), sd_fraction);
   double sum = 0, squares = 0;
@@ -102,7 +102,7 @@ TEST(HeapOfManySizes, SameSeedSameBytesOnAnyNumberOfThreadsAndAfterAnInterruptio
   const Repeat whole = run_heap(model, tube_for_many_sizes(), 1, {}, record);
   model.threads = 2;
   EXPECT_TRUE(test::same_state(*whole.state, *run_heap(model, tube_for_many_sizes(), 1).state));
-  // In the rain, when the sizes of the grains to come are still to be drawn.
+  // During the rain, when the sizes of the remaining grains have not been drawn yet.
   ASSERT_EQ(points.at(1).progress.stage, HeapStage::rain);
   const Repeat resumed = resume_heap(model, tube_for_many_sizes(), 1, points.at(1));
   EXPECT_EQ(state_text(*resumed.state, "{}"), state_text(*whole.state, "{}"));

@@ -76,7 +76,7 @@ TEST(ContactForce, SmallSlipStretchesMindlinsSpring) {
   const ContactGeometry<double> touch = touch_of(1e-6);
   Springs<double> springs;
   const ContactForce<double> force = slide(touch, {1e-9, 0, 0}, law, springs);
-  EXPECT_NEAR(force.total.x, tangential_stiffness(touch, law) * 1e-9, 1e-12);  // a is dragged
+  EXPECT_NEAR(force.total.x, tangential_stiffness(touch, law) * 1e-9, 1e-12);  // a is dragged along
   const ContactForce<double> back = slide(touch, {-1e-9, 0, 0}, law, springs);
   EXPECT_NEAR(back.total.x, 0, 1e-15);
 }
@@ -87,7 +87,7 @@ TEST(ContactForce, SlidingStopsAtCoulombsLimit) {
   const ContactForce<double> force = slide(touch_of(1e-6), {3e-5, 4e-5, 0}, law, springs);
   EXPECT_NEAR(std::hypot(force.total.x, force.total.y), .3 * force.normal, 1e-12);
   EXPECT_NEAR(std::sqrt(springs.tangential.squared_norm()), .3 * force.normal,
-              1e-12);  // the spring is cut off too
+              1e-12);  // the spring is limited too
   EXPECT_NEAR(force.total.y / force.total.x, 4.0 / 3, 1e-9);
 }
 
@@ -133,7 +133,7 @@ TEST(ContactForce, SpringTurnsWithSpinAboutTheNormal) {
   EXPECT_NEAR(std::atan2(springs.tangential.y, springs.tangential.x), .5, 1e-3);
 }
 
-/// Work that a contact gives out on a closed path of (overlap, slip), in small steps.
+/// Work done by a contact on a closed path of (overlap, slip), in small steps.
 double work_given(const std::vector<Eigen::Vector2d>& corners) {
   const Law<double> law = glass_law(1, 10);
   Springs<double> springs;
@@ -152,7 +152,7 @@ double work_given(const std::vector<Eigen::Vector2d>& corners) {
   return work;
 }
 
-// Thornton's rescaling on unloading: a spring of the total slip fails one of these.
+// Thornton's rescaling on unloading: a spring based on the total slip fails one of these.
 TEST(ContactForce, NoCycleOfLoadAndSlipMakesEnergy) {
   constexpr double kLow = 1e-6;
   constexpr double kHigh = 4e-6;

@@ -46,7 +46,7 @@ TEST(Double4, TurningRowsTwiceGivesThemBack) {
   }
 }
 
-/// ActiveContact at the overlap, with everything else at random.
+/// A contact with random overlap, velocities and springs.
 struct Case {
   ContactGeometry<double> touch;
   Springs<double> springs;
@@ -66,7 +66,7 @@ Case random_case(std::mt19937& random) {
   one.touch.damper_limit = 10;
   one.touch.max_stable_damping = 8;
   one.touch.half_velocity = vector(2);
-  one.touch.velocity = vector(random() % 4 == 0 ? 4 : .01);  // brief and long impacts
+  one.touch.velocity = vector(random() % 4 == 0 ? 4 : .01);  // short and long impacts
   one.touch.twist = uniform();
   if (random() % 4 != 0) one.springs = {vector(1e-2), 1e-4 * (1 + uniform())};
   return one;

@@ -13,8 +13,8 @@ namespace {
 using dem::Mesh;
 using dem::Vector;
 
-/// A square of side 1 about the origin in z = 0, n x n squares of two triangles each; beyond x = 0
-/// it rises with the given slope.
+/// A square of side 1 about the origin in z = 0, n x n squares of two triangles each; for x > 0 it
+/// rises with the given slope.
 Mesh folded_sheet(int n, double slope) {
   Mesh mesh;
   for (int i = 0; i <= n; ++i) {

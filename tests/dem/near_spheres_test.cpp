@@ -27,7 +27,7 @@ GrainKind kind_of(int spheres, Random& random) {
   return kind;
 }
 
-/// Two bodies, their surfaces near each other, and what is known of them.
+/// Two bodies whose surfaces are close to each other, with their margins and sphere columns.
 struct Pair {
   Bodies bodies;
   Margins margins;

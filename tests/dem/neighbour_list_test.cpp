@@ -10,7 +10,7 @@
 namespace repose::dem {
 namespace {
 
-/// Grain, sphere, other grain or -1 - wall, its sphere or facet.
+/// Grain, sphere, other grain (or -1 - wall), its sphere (or facet).
 using TouchingSet = std::set<std::tuple<int, int, int, int>>;
 
 TouchingSet listed(const Simulation& simulation) {
@@ -44,7 +44,7 @@ void for_each_sphere(const Simulation& simulation, const Visit& visit) {
   }
 }
 
-/// Every sphere against every other one and every wall.
+/// Compares every sphere with all others and with every wall.
 TouchingSet brute_force(const Simulation& simulation) {
   TouchingSet all;
   WallSet walls(simulation.setup().walls);
@@ -88,7 +88,7 @@ TEST(NeighbourList, EveryTouchingPairIsFoundInOverlappingHeaps) {
                                     std::sin(37.719 * k + 2 * seed));
       simulation.add(grain);
     }
-    EXPECT_THROW(simulation.advance(1), UnstableRun);  // no run has overlaps like these
+    EXPECT_THROW(simulation.advance(1), UnstableRun);  // no real run has overlaps like these
     const TouchingSet expected = brute_force(simulation);
     EXPECT_EQ(listed(simulation), expected);
     EXPECT_GT(expected.size(), 20U);
@@ -132,7 +132,7 @@ TEST(NeighbourList, ResultsDoNotShowWhenItWasMade) {
   for (int k = 0; k < 4000; ++k) {
     seldom.advance(1);
     often.advance(1);
-    if (k % 3 == 0) often.set_motions(0, {});  // the list is made anew
+    if (k % 3 == 0) often.set_motions(0, {});  // the list is rebuilt
   }
   for (int k = 0; k < 12; ++k) {
     EXPECT_EQ(seldom.grain(k).position, often.grain(k).position) << k;

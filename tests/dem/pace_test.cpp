@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kUsual_m_s = 1.3;
 
-/// A sphere of a bench's bulk that flies over a plane.
+/// A sphere flying over a plane, set up as in bulk experiments.
 Simulation flying(const Model& model, double speed_m_s, double spin_rad_s = 0) {
   Simulation simulation(bulk_setup(model, {study_wall(Plane{})}, kUsual_m_s));
   simulation.add(
@@ -149,7 +149,7 @@ TEST(SetTimestep, ACheckpointGoesOnBitForBit) {
   EXPECT_EQ(resumed.grain(0).spin, whole.grain(0).spin);
 }
 
-// The pace changes while grains touch.
+// The time step changes while grains touch.
 TEST(SetTimestep, WithinAnImpactHardlyChangesItsRestitution) {
   for (const double e : {.2, .5, .8}) {
     SimulationSetup setup = ball_scene({.restitution = e});

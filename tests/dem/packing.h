@@ -7,7 +7,7 @@
 
 namespace repose::dem {
 
-/// Blocks of two sizes in a tube that stands on a plate, each in a pose of its own.
+/// Blocks of two sizes in a tube standing on a plate, each in its own pose.
 inline SimulationSetup packing_setup(RollingModel rolling = RollingModel::elastic_plastic,
                                      DampingModel damping = DampingModel::per_contact) {
   const Material soft{
@@ -26,7 +26,7 @@ inline SimulationSetup packing_setup(RollingModel rolling = RollingModel::elasti
   return setup;
 }
 
-/// Grain number k of a loose column, clear of the others.
+/// Grain number k of a loose column, not touching the others.
 inline Grain loose_grain(int k) {
   const Vector turn(std::sin(1.0 + k), std::sin(2.1 * k), std::cos(3.3 * k));
   const double angle = 2.4 * k;

@@ -29,8 +29,8 @@ SimulationSetup glass_on_wall(double restitution, double poisson_ratio = .24) {
   return setup;
 }
 
-/// A central impact whose first contact falls `late` of a step after the start: on the wall or,
-/// where there is none, on a like ball at rest.
+/// A central impact whose first contact is a fraction `late` of a step after the start: with the
+/// wall or, if there is none, with an identical ball at rest.
 Collision impact(const SimulationSetup& setup, double late) {
   Simulation simulation(setup);
   Grain grain;
@@ -41,13 +41,13 @@ Collision impact(const SimulationSetup& setup, double late) {
   return collide(simulation, kBallRadius);
 }
 
-/// Speed apart over that of approach.
+/// Ratio of separation speed to approach speed.
 double restitution_seen(const SimulationSetup& setup, double late) {
   const double after = impact(setup, late).after.velocity.z() / kSpeed_m_s;
   return setup.walls.empty() ? 1 + 2 * after : after;
 }
 
-/// The factor -2 sqrt(5/6) ln e / sqrt(pi^2 + ln^2 e) of a contact that may pull.
+/// The factor -2 sqrt(5/6) ln e / sqrt(pi^2 + ln^2 e) for a contact that may pull.
 double textbook_factor(double restitution) {
   const double log = std::log(restitution);
   return -2 * std::sqrt(5.0 / 6) * log / std::hypot(std::numbers::pi, log);
@@ -78,14 +78,14 @@ TEST(Restitution, OutOfRangeIsRefused) {
               ::testing::AllOf(::testing::HasSubstr("1.5"), ::testing::HasSubstr("Fix:")));
 }
 
-// Why the factor is worked out anew: with the pull cut off, the textbook's returns too much.
+// Why the factor is recalculated: with the pull cut off, the textbook's gives too high a rebound.
 TEST(Restitution, TextbookFactorReturnsTooMuch) {
   EXPECT_NEAR(restitution_of(textbook_factor(.1)), .25, .01);
   EXPECT_NEAR(restitution_of(textbook_factor(.3)), .40, .01);
   EXPECT_NEAR(restitution_of(textbook_factor(.5)), .55, .01);
 }
 
-/// How far off restitution is at most: of one impact, wherever in a step it begins, and of the mean
+/// Largest errors of restitution: of a single impact, wherever in a step it begins, and of the mean
 /// of many.
 struct WorstError {
   double of_one = 0;
@@ -111,7 +111,7 @@ WorstError worst_error(SimulationSetup setup, double restitution, double timeste
   return worst;
 }
 
-// Poisson's ratio: the larger, the fewer steps an impact takes along the normal.
+// The larger Poisson's ratio, the fewer steps an impact takes along the normal.
 TEST(Restitution, ComesOutAtEveryAcceptedTimestep) {
   for (const double poisson_ratio : {0.0, .24, .49}) {
     for (int percent = 5; percent <= 100; percent += 5) {
@@ -136,7 +136,7 @@ TEST(Restitution, ConvergesWithTheTimestep) {
   }
 }
 
-// Four equal contacts side by side: four times the stiffness and the damper, so twice the factor.
+// Four equal contacts side by side: four times the stiffness and damping, so twice the factor.
 TEST(Restitution, BlockThatLandsOnFourSpheresRisesLess) {
   const Material wood{
       .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = 1e8, .poisson_ratio = .3};
@@ -166,7 +166,7 @@ TEST(Restitution, ContactNeverPulls) {
   }
 }
 
-/// Of a contact whose restitution depends on the speed.
+/// For a contact whose restitution depends on the speed.
 SimulationSetup by_speed(double restitution, double exponent, double young_pa = 1e9) {
   const Material wood{
       .name = "wood", .density_kg_m3 = 700, .young_modulus_pa = young_pa, .poisson_ratio = .3};
@@ -190,7 +190,7 @@ TEST(RestitutionBySpeed, BothAWallAndAnotherBallRestoreWhatTheLawSays) {
   }
 }
 
-/// The law has no scale but its own speed: neither stiffness nor mass matters.
+/// The law has no scale other than its own speed: neither stiffness nor mass matters.
 TEST(RestitutionBySpeed, DoesNotDependOnTheStiffness) {
   EXPECT_NEAR(restitution_seen(by_speed(.4, .2, 1e7), .5), .4, .004);
   EXPECT_NEAR(restitution_seen(by_speed(.4, .2, 1e11), .5), .4, .004);

@@ -31,7 +31,7 @@ Roll<double> roll_of(const Vec3<double>& spin) {
           .contact_inertia = 4e-7};
 }
 
-/// Once the spring has reached its limit.
+/// The torque once the spring has reached its limit.
 Vec3<double> relative_torque(const Vec3<double>& spin) {
   Vec3<double> spring;
   Vec3<double> torque;
@@ -68,8 +68,8 @@ TEST(Rolling, RelativeTorqueHoldsOnWhereNothingSpins) {
   EXPECT_NEAR(held.y, .8 * .1 * 2 * .005, 1e-15);
 }
 
-/// However long a step is, and however many contacts share the body: N of them are as stiff
-/// together as one alone, and stop a spin without overshooting for long.
+/// For any step length and any number of contacts sharing the body: N of them together are as stiff
+/// as one alone, and stop a spin without lasting overshoot.
 TEST(Rolling, RelativeTorqueStopsABodyInManyContacts) {
   for (const int contacts : {1, 4, 60}) {
     constexpr double kInertia = 1e-7;
@@ -110,7 +110,7 @@ TEST(Rolling, ElasticPlasticTorqueYieldsAtTheLimitAndSpringsBack) {
   EXPECT_NEAR(held.x, -.1 * .005 * 2, 1e-15);  // a type A model would let go here
 }
 
-/// What the damper takes on the way to the limit at a steady spin, N m s.
+/// Impulse of the damper until the limit is reached at a steady spin, N m s.
 double damper_impulse(double timestep) {
   const Law<double> law = rolling_law(.1);
   const Roll<double> roll = roll_of({1e3, 0, 0});
@@ -142,7 +142,7 @@ TEST(Rolling, ElasticPlasticTorqueHasNoPartAboutTheNormal) {
   EXPECT_EQ(spring.z, 0);
 }
 
-/// Spin that two equal balls with opposite spins lose when they meet head-on without sliding
+/// Spin that two equal balls with opposite spins lose in a head-on collision without sliding
 /// friction. The impulse is 2 m v, so a torque mu_r F x takes mu_r x 2 m v / (2/5 m r^2).
 double spin_lost(RollingModel model, double rolling_friction, double speed) {
   SimulationSetup setup = ball_scene({.rolling_friction = rolling_friction}, model);
@@ -159,7 +159,7 @@ double spin_lost(RollingModel model, double rolling_friction, double speed) {
   return kSpin - collide(simulation, kBallRadius_m).after.spin.x();
 }
 
-// What a coefficient means: between equal spheres R* is half of each one's own radius.
+// The meaning of a coefficient: between equal spheres R* is half the radius of each.
 TEST(Rolling, ConstantTorqueIsTwiceTheRelativeOneBetweenEqualSpheres) {
   constexpr double kFriction = .1;
   constexpr double kSpeed = .05;
@@ -192,7 +192,7 @@ TEST(Rolling, BallHeldByRelativeTorqueOnAnInclineStays) {
   EXPECT_LT((simulation.grain(0).position - settled).norm(), 1e-9);
 }
 
-// The brake takes what there is: a ball at rest does not tremble.
+// The brake takes no more than there is: a ball at rest does not tremble.
 TEST(Rolling, BallBrakedByConstantTorqueStopsDead) {
   SimulationSetup setup =
       ball_scene({.restitution = .5, .sliding_friction = .5, .rolling_friction = .2},

@@ -25,7 +25,7 @@ CalliperSizes nut_sizes(double tip_fraction) {
           .tip_fraction = tip_fraction};
 }
 
-/// Half the width near the end at +x, as a fraction of the full one.
+/// Half width near the end at +x, as a fraction of the full half width.
 double width_near_tip(const Mesh& mesh, const CalliperSizes& sizes) {
   double width = 0;
   for (const Vector& vertex : mesh.vertices) {

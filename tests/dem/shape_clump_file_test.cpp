@@ -22,7 +22,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// Numbers that only survive when written to the last bit.
+/// Numbers that survive only if written to the last bit.
 ClumpFile small_clump() {
   ClumpFile clump;
   clump.source = "nut \"a\".stl";
@@ -65,7 +65,7 @@ TEST(ClumpFile, ComesBackToTheLastBit) {
   EXPECT_EQ(dem::clump_json(back), text);
 }
 
-/// A sphere, radius in m.
+/// A sphere with its radius in m.
 ClumpFile ball(double radius_m) {
   ClumpFile clump;
   clump.shape = dem::sphere_shape(radius_m);
@@ -81,7 +81,7 @@ TEST(ClumpFile, LengthsInMillimetresAreFoundOut) {
   };
   EXPECT_THAT(read(ball(10)), refused(AllOf(HasSubstr("nut.json: spheres: they reach 10 m"),
                                             HasSubstr("divide lengths in mm by 1000"))));
-  ClumpFile half_converted = ball(5e-4);  // 1 mm: as 1 m its spheres alone would be a grain
+  ClumpFile half_converted = ball(5e-4);  // 1 mm; its spheres alone, in m, would be a grain
   half_converted.shape.spheres.front().radius = .5;
   EXPECT_THAT(read(half_converted), refused(HasSubstr("does not fit to volume_m3")));
   EXPECT_NO_THROW(read(ball(5e-4))());
@@ -122,7 +122,7 @@ TEST(ClumpFile, RefusesSpheresThatDoNotHangTogether) {
 TEST(SphereGroups, AreCounted) {
   EXPECT_EQ(dem::sphere_groups({}), 0);
   EXPECT_EQ(dem::sphere_groups({{{0, 0, 0}, 1}}), 1);
-  // A chain whose links are listed out of order, and two by themselves.
+  // A chain whose links are listed out of order, and two on their own.
   EXPECT_EQ(
       dem::sphere_groups(
           {{{0, 0, 0}, 1}, {{6, 0, 0}, 1.5}, {{0, 9, 0}, 1}, {{3, 0, 0}, 2}, {{0, 0, 20}, 1}}),

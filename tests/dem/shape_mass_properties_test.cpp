@@ -17,7 +17,7 @@ using dem::PrincipalFrame;
 using dem::Quaternion;
 using dem::Vector;
 
-constexpr double kRounding = 1e-12;  // sums of some thousand terms in double precision
+constexpr double kRounding = 1e-12;  // for sums of some thousand terms in double precision
 
 const Quaternion kTurn = Quaternion(0.3, -0.5, 0.7, 0.2).normalized();
 const Vector kShift(0.31, -1.7, 0.4);
@@ -45,7 +45,7 @@ TEST(MassProperties, OfATetrahedronIncludeItsProductsOfInertia) {
 TEST(MassProperties, OfAnEllipsoidComeCloseToTheSmoothOne) {
   const Mesh mesh = dem::calliper_surface({.length_m = 0.04, .width_m = 0.03, .thickness_m = 0.02});
   const MassProperties body = dem::mass_properties(mesh);
-  // The polyhedron lies inside the ellipsoid: .2 % of the volume for its number of triangles.
+  // The polyhedron lies inside the ellipsoid: by .2 % of the volume for this number of triangles.
   constexpr double kFacets = 3e-3;
   const double volume = std::numbers::pi / 6 * 0.04 * 0.03 * 0.02;
   EXPECT_LT(body.volume_m3, volume);
@@ -58,7 +58,7 @@ TEST(MassProperties, OfAnEllipsoidComeCloseToTheSmoothOne) {
 TEST(MassProperties, OfAFarAwayGrainKeepTheirDigits) {
   const Mesh nut = nut_surface();
   const Mesh far = moved(nut, Quaternion::Identity(), Vector(100, -200, 50));
-  // Coordinates of 200 m hold 3e-14 m, of a grain of 2e-2 m.
+  // Coordinates at 200 m resolve 3e-14 m, compared with a grain of 2e-2 m.
   EXPECT_NEAR(dem::mass_properties(far).volume_m3 / dem::mass_properties(nut).volume_m3, 1, 1e-9);
 }
 
@@ -78,7 +78,7 @@ TEST(PrincipalFrame, OrdersItsAxesFromTheLongOneToTheShortOne) {
 }
 
 TEST(PrincipalFrame, SeesTheSameBodyHoweverTheScanLies) {
-  // A tetrahedron has no symmetry: order and signs are all its own.
+  // A tetrahedron has no symmetry, so the order and signs of its axes are unique.
   const Mesh body = corner_tetrahedron(0.011, 0.022, 0.035);
   const Mesh straight = dem::in_frame(body, dem::principal_frame(body));
   const Mesh scan = moved(body, kTurn, kShift);

@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::ThrowsMessage;
 
-constexpr double kSinglePrecision = 1e-11;  // of 24e-6 m^3, what STL and assimp keep
+constexpr double kSinglePrecision = 1e-11;  // of 24e-6 m^3, as kept by STL and assimp
 
 auto refuses(const auto& matcher) { return ThrowsMessage<base::InputError>(matcher); }
 
@@ -138,7 +138,7 @@ TEST(ReadScan, OpensNothingThatAScanRefersTo) {
   const TemporaryFolder folder;
   const std::string body = "usemtl shell\n" + obj(box_surface(20, 30, 40));
   folder.write("bad.mtl", std::string("newmtl shell\nKd not numbers\n"));
-  ASSERT_EQ(::mkfifo((folder.path() / "pipe.mtl").c_str(), 0600), 0);  // opening it would wait
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe.mtl").c_str(), 0600), 0);  // opening it would block
   for (const char* library : {"bad.mtl", "pipe.mtl", "none.mtl", "../../../../etc/passwd"}) {
     const auto file = folder.write("nut.obj", "mtllib " + std::string(library) + '\n' + body);
     EXPECT_NEAR(volume(dem::read_scan(file, ScanUnit::millimetre)), 24e-6, kSinglePrecision)
@@ -190,7 +190,7 @@ TEST(ReadScan, RefusesCoordinatesThatAreNoPlaces) {
 
 TEST(CheckedSurface, JoinsCornersThatAreApartByRounding) {
   Mesh apart = taken_apart(nut_surface());
-  // A tenth of the distance within which corners are joined.
+  // A tenth of the distance within which vertices are merged.
   for (std::size_t i = 0; i < apart.vertices.size(); ++i) {
     apart.vertices[i].x() += (i % 3 == 0 ? 1 : -1) * 1.6e-8;
   }
@@ -261,7 +261,7 @@ TEST(CheckedSurface, DropsLooseFlakesButDoesNotChooseBetweenBodies) {
 
 TEST(CheckedSurface, RefusesASurfaceThatCrossesItself) {
   Mesh pushed_through = nut_surface();
-  // The tip through the opposite side.
+  // Pushes the tip through the opposite side.
   pushed_through.vertices.back().x() = -0.03;
   EXPECT_THAT([&] { checked(pushed_through); },
               refuses(AllOf(HasSubstr("crosses itself"), HasSubstr("Fix: MeshLab"))));

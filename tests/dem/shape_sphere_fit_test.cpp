@@ -55,7 +55,7 @@ TEST(SphereFit, NeverGetsWorse) {
 }
 
 TEST(SphereFit, PointsOutsidePushASphereAwayThatReachesThem) {
-  // A flat patch is touched from both sides equally well; the points above it rule one out.
+  // A flat patch can be touched equally well from either side; the points above it rule one out.
   std::vector<SurfaceSample> patch;
   std::vector<SphereFit::Guard> above;
   for (int x = -5; x <= 5; ++x) {

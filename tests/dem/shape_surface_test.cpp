@@ -27,7 +27,7 @@ TEST(SurfaceDistance, OfABoxIsExactAtFacesEdgesAndCornersOnBothSides) {
 }
 
 TEST(SurfaceDistance, KnowsInsideFromOutsideInADent) {
-  // A box with its upper face pulled down to its middle: a pyramid of air.
+  // A box whose upper face is pulled down to the centre of the box: a pyramid of air.
   Mesh dented = box_surface(2, 2, 2);
   const auto middle = static_cast<int>(dented.vertices.size());
   dented.vertices.emplace_back(0, 0, 0);
@@ -53,7 +53,7 @@ TEST(SampleSurface, SpreadsPointsByArea) {
 }
 
 TEST(SampleUnion, LeavesOutWhatIsHiddenInAnotherSphere) {
-  // Two equal spheres whose centres are a radius apart: a quarter of each is hidden.
+  // Two equal spheres whose centres are one radius apart: a quarter of each is hidden.
   const std::vector<ClumpSphere> pair = {{{0, 0, 0}, 1}, {{1, 0, 0}, 1}};
   double area = 0;
   for (const auto& point : dem::sample_union(pair, 8000)) area += point.area;
@@ -82,7 +82,7 @@ TEST(ColumnGrid, CountsColumnsThroughEdgesAndCornersOnce) {
       length += chord.to - chord.from;
     }
   }
-  EXPECT_DOUBLE_EQ(length, 50);  // 5 x 5: of two opposite faces, one
+  EXPECT_DOUBLE_EQ(length, 50);  // 5 x 5: only one of two opposite faces counts
 }
 
 TEST(ColumnGrid, KnowsTheVolumeOfTwoOverlappingSpheres) {

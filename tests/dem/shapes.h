@@ -9,16 +9,16 @@
 #include "dem/shape/scan/calliper.h"
 #include "dem/shape/scan/mesh.h"
 
-/// Surfaces whose properties are known.
+/// Surfaces with known properties.
 namespace repose::testing {
 
-/// The sample hazelnut by its calliper sizes.
+/// The sample hazelnut, from its calliper sizes.
 inline dem::Mesh nut_surface() {
   return dem::calliper_surface(
       {.length_m = 22.48e-3, .width_m = 18.23e-3, .thickness_m = 17.46e-3, .tip_fraction = 0.5});
 }
 
-/// A box about the origin, every face of two triangles.
+/// A box centred on the origin, two triangles per face.
 inline dem::Mesh box_surface(double x_m, double y_m, double z_m) {
   dem::Mesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -30,7 +30,7 @@ inline dem::Mesh box_surface(double x_m, double y_m, double z_m) {
   return mesh;
 }
 
-/// Corners at the origin and one step along each axis.
+/// Vertices at the origin and at one point along each axis.
 inline dem::Mesh corner_tetrahedron(double x_m, double y_m, double z_m) {
   return {.vertices = {{0, 0, 0}, {x_m, 0, 0}, {0, y_m, 0}, {0, 0, z_m}},
           .triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
@@ -46,7 +46,7 @@ inline dem::Mesh inside_out(dem::Mesh mesh) {
   return mesh;
 }
 
-/// Both surfaces in one.
+/// Both surfaces in one mesh.
 inline dem::Mesh together(dem::Mesh a, const dem::Mesh& b) {
   const auto first = static_cast<int>(a.vertices.size());
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
@@ -55,7 +55,7 @@ inline dem::Mesh together(dem::Mesh a, const dem::Mesh& b) {
   return a;
 }
 
-/// Every triangle with corners of its own, as STL has it.
+/// Every triangle with its own vertices, as in STL.
 inline dem::Mesh taken_apart(const dem::Mesh& mesh) {
   dem::Mesh apart;
   for (const auto& triangle : mesh.triangles) {

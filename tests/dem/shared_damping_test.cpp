@@ -24,7 +24,7 @@ SimulationSetup wood_scene(const ClumpShape& shape, double restitution, DampingM
                   RollingModel::none, damping);
 }
 
-/// Speed after per speed before, of a block that lands flat on the spheres in its lower corners.
+/// Rebound speed over impact speed of a block that lands flat on the spheres in its lower corners.
 double rebound_of_block(double restitution, DampingModel damping, double step, double late) {
   SimulationSetup setup = wood_scene(block_shape({.02, .02, .01}, .005), restitution, damping);
   setup.walls = {tilted_plane(0)};
@@ -35,7 +35,7 @@ double rebound_of_block(double restitution, DampingModel damping, double step, d
   return collide(simulation, .005).after.velocity.z() / kImpactSpeed;
 }
 
-// As exact as one contact is at the steps of all experiments.
+// As accurate as a single contact, at the time steps of all experiments.
 TEST(SharedDamping, FourContactsAtOnceRestoreWhatOneDoes) {
   for (const auto& [step, tolerance] : {std::pair{.07, .0015}, {.14, .004}, {.30, .02}}) {
     for (const double e : {.05, .2, .5, .8, 1.0}) {
@@ -49,7 +49,7 @@ TEST(SharedDamping, FourContactsAtOnceRestoreWhatOneDoes) {
               restitution_of(2 * damping_factor(.5)), .0015);
 }
 
-/// Two spheres beside each other along y.
+/// Two spheres side by side along y.
 ClumpShape dumbbell() {
   ClumpShape shape;
   for (const double side : {-1.0, 1.0}) {
@@ -60,7 +60,7 @@ ClumpShape dumbbell() {
   return shape;
 }
 
-/// A right-angled groove along y, of one wall.
+/// A right-angled groove along y, made of one wall.
 Wall groove() {
   Wall mesh;
   mesh.material = 1;
@@ -70,7 +70,7 @@ Wall groove() {
   return mesh;
 }
 
-/// Speed after per speed before, of a dumbbell that falls into a groove.
+/// Rebound speed over impact speed of a dumbbell that falls into a groove.
 double rebound_in_groove(const std::vector<Wall>& walls, DampingModel damping) {
   SimulationSetup setup = wood_scene(dumbbell(), .4, damping);
   setup.walls = walls;
@@ -80,7 +80,7 @@ double rebound_in_groove(const std::vector<Wall>& walls, DampingModel damping) {
   return collide(simulation, .005).after.velocity.z() / kImpactSpeed;
 }
 
-// Each flank of the groove takes its half of the impact, as if the other were not there.
+// Each flank of the groove takes its half of the impact as if the other did not exist.
 TEST(SharedDamping, ContactsAcrossEachOtherDoNotShare) {
   const double slope = std::acos(-1.0) / 4;
   const std::vector<Wall> planes = {tilted_plane(slope), tilted_plane(-slope)};
@@ -90,7 +90,7 @@ TEST(SharedDamping, ContactsAcrossEachOtherDoNotShare) {
               restitution_of(std::sqrt(2) * damping_factor(.4)), .002);
 }
 
-/// Velocity of a ball that falls onto a wall, while it touches it in several places.
+/// Velocity of a ball falling onto a wall, while it touches the wall in several places.
 Vector velocity_of_ball(const Wall& wall, DampingModel damping) {
   SimulationSetup setup = wood_scene(sphere_shape(.005), .4, damping, .4);
   setup.walls = {wall};
@@ -103,7 +103,7 @@ Vector velocity_of_ball(const Wall& wall, DampingModel damping) {
   return simulation.grain(0).velocity;
 }
 
-// One sphere in a groove, or in the hollow of glued grains, damps as ever.
+// A single sphere in a groove, or in the hollow of glued grains, is damped as before.
 TEST(SharedDamping, GrainOfOneSphereIsTheSameToTheByteAsPerContact) {
   Wall hollow;
   hollow.material = 1;
@@ -121,7 +121,7 @@ TEST(SharedDamping, GrainOfOneSphereIsTheSameToTheByteAsPerContact) {
   }
 }
 
-// Blocks that strike a wall and each other anyhow: friction and dampers only take.
+// Blocks that strike a wall or each other in any pose: friction and dampers only dissipate.
 TEST(SharedDamping, NoImpactMakesEnergyOrPulls) {
   for (const bool on_block : {false, true}) {
     for (int k = 0; k < 20; ++k) {

@@ -57,7 +57,7 @@ std::vector<Wall> walls() {
   return {steel(Plane{}), pusher, steel(Tube{.06, .002, .1})};
 }
 
-/// 30 clumps that fall on a plate within a tube, and a box that pushes them; one is taken out.
+/// 30 clumps falling onto a plate within a tube, and a box that pushes them; one clump is removed.
 Simulation heap(int threads) {
   SimulationSetup setup{.kinds = {{peanut(), 0}, {sphere_shape(.004), 0}},
                         .walls = walls(),
@@ -80,13 +80,13 @@ Simulation heap(int threads) {
   return simulation;
 }
 
-/// Two runs that agree here agree in every bit that a run goes on from.
+/// Two runs for which this is equal agree in every bit needed to continue.
 std::string bits(const Simulation& simulation) { return state_text(simulation, "{}"); }
 
 class StateFile : public ::testing::Test {
  protected:
   std::filesystem::path file() const { return folder_.path() / "state.vtp"; }
-  /// A state, in the text of its file.
+  /// A state as the text of its file.
   std::string saved(const std::string& provenance = "{}") const {
     Simulation simulation = heap(1);
     simulation.advance(1500);
@@ -263,7 +263,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-/// As earlier versions wrote it: what is wrong with it must be found out.
+/// As earlier versions wrote it: errors in it must still be detected.
 std::string without_fingerprint(const std::string& text) {
   return text.substr(0, text.rfind("<!-- fingerprint "));
 }
@@ -296,7 +296,7 @@ TEST_F(StateFile, SizesThatDoNotHoldTogetherAreRefused) {
               HasSubstr("array gravity is of type Float32"));
 }
 
-/// The first numbers of an array of one block of base64 each, written anew.
+/// Replaces the first numbers of an array that is one base64 block.
 std::string with_numbers(const std::string& text, const std::string& array,
                          const std::string& base64) {
   const std::size_t start = text.find('>', text.find("Name=\"" + array + "\"")) + 1;
@@ -308,10 +308,10 @@ TEST_F(StateFile, EditedContentsAreRefused) {
   EXPECT_THAT(error(with_numbers(whole, "gravity", "not base64!")), HasSubstr("array gravity"));
   EXPECT_THAT(error(with_numbers(whole, "gravity", "====")), HasSubstr("array gravity"));
   EXPECT_THAT(error(with_numbers(whole, "gravity", "")), HasSubstr("array gravity"));
-  // A header that promises 2^63 bytes.
+  // A header that announces 2^63 bytes.
   EXPECT_THAT(error(with_numbers(whole, "gravity", "AAAAAAAAAIA=")),
               HasSubstr("array gravity says"));
-  // Eight bytes: the number -1, where audit steps, or the time step's, must be above 0.
+  // Eight bytes: the number -1, where audit steps or the time step must be above 0.
   const std::string minus_one = "CAAAAAAAAAD//////////w==";
   EXPECT_THAT(error(with_numbers(whole, "audit_steps", minus_one)), HasSubstr("audit_steps"));
   EXPECT_THAT(error(with_numbers(whole, "step", minus_one)), HasSubstr("array step"));
@@ -325,7 +325,7 @@ TEST_F(StateFile, EditedContentsAreRefused) {
   EXPECT_THAT(error(with_numbers(whole, "damping", "AAAAAAAAAAA=")), HasSubstr("damping"));
 }
 
-/// Numbers as an array of the file has them.
+/// Numbers encoded like an array of the file.
 std::string base64_of(const std::vector<double>& numbers) {
   const std::uint64_t size = numbers.size() * sizeof(double);
   std::vector<std::byte> bytes(sizeof size + size);

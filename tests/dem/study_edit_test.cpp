@@ -1,4 +1,4 @@
-// Numbers of a study that are changed in its text, and nothing else of it.
+// Numbers of a study changed in its text, and nothing else of it.
 #include "dem/study/study_edit.h"
 
 #include <gmock/gmock.h>

@@ -33,16 +33,16 @@ rolling_friction = 0.04
 inline const std::string kDrop = "[experiment.drop]\n";
 inline const std::string kStudy = kParticle + kWall + kContact + kDrop;
 
-/// What --set gives.
+/// Values of --set.
 using Settings = std::vector<std::string>;
 
-/// Studies written to a folder and read.
+/// Writes studies to a folder and reads them.
 class StudyFile : public ::testing::Test {
  protected:
   Study read(const std::string& text, const Settings& settings = {}) const {
     return read_study(folder_.write("study.toml", text), settings);
   }
-  /// What is wrong, without the folder's name; empty when nothing is.
+  /// The error message, without the folder's name; empty if there is no error.
   std::string errors(const std::string& text, const Settings& settings = {}) const {
     std::string all = error_of([&] { read(text, settings); });
     const std::string folder = folder_.path().string() + "/";

@@ -1,4 +1,4 @@
-// What a study says of the bench: readings, other readings, tolerances, sheets.
+// What a study states about measurements: readings, additional readings, tolerances, sheets.
 
 #include <string>
 

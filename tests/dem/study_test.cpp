@@ -506,7 +506,7 @@ TEST_F(StudyFile, GrainsAreBuiltFromSizes) {
   const Study study = read(kStudy, {"particle.spheres = 3"});
   const ClumpFile grain = build_grain(study.grain);
   EXPECT_EQ(grain.shape.spheres.size(), 3U);
-  // An ellipsoid of these sizes, less what the polyhedron lacks.
+  // An ellipsoid of these sizes, less the volume that the polyhedron lacks.
   EXPECT_NEAR(grain.shape.volume_m3, M_PI / 6 * 22.48e-3 * 18.23e-3 * 17.46e-3, 2e-8);
   EXPECT_THAT(grain.source, HasSubstr("22.48 x 18.23 x 17.46 mm"));
   EXPECT_THROW(build_grain({}), base::InputError);

@@ -13,7 +13,7 @@ constexpr HeapProtocol kTubeToTap{
     .tube_diameter_m = .1, .tube_height_m = .1, .plate_m = .12, .grains = {}};
 constexpr double kTap_m = .01, kRestitution = .7;
 
-/// One ball that lies in the tube.
+/// A single ball lying in the tube.
 ExperimentRun with_a_ball(const Observers& observers) {
   Model model = test::sphere_bench();
   model.grain_wall.restitution = kRestitution;
@@ -25,7 +25,7 @@ ExperimentRun with_a_ball(const Observers& observers) {
 }
 
 TEST(Tapping, ABallRisesByTheSquareOfItsRestitutionOfTheDrop) {
-  // sqrt(2 g h) onto the plate, e of it off: e^2 h. A ball that lies there at the tap does not meet
+  // sqrt(2 g h) onto the plate, e of it back: e^2 h. A ball lying there at the tap does not meet
   // the plate within a step, where impacts are averaged: e is up to .02 higher (THEORY, Time step).
   double lowest = 1, highest = 0;
   bool is_tapped = false;

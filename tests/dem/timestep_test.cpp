@@ -63,8 +63,8 @@ TEST(AccurateTimestep, StepsThatWouldTakeForEverAreRefused) {
       AllOf(HasSubstr("timestep_s is 1e-300"), HasSubstr("Rule: at least"), HasSubstr("Fix:")));
 }
 
-/// Kinetic energy after an elastic impact of two like balls, or of one with a wall, over that
-/// before.
+/// Ratio of kinetic energies after and before an elastic impact of two identical balls, or of one
+/// with a wall.
 double energy_kept(bool on_ball, double angle_rad, double late, double timestep_fraction) {
   constexpr double kSpeed = 2;
   SimulationSetup setup = ball_scene({.sliding_friction = .3});
@@ -80,7 +80,7 @@ double energy_kept(bool on_ball, double angle_rad, double late, double timestep_
   return simulation.energies().kinetic_j / before;
 }
 
-/// The most that such impacts make, as a fraction of what there was: at any angle, and straight on
+/// The largest relative energy gain of such impacts: at any angle, and, for central impacts,
 /// wherever in a step the contact begins.
 double energy_made(bool on_ball, double timestep_fraction) {
   double most = 0;
@@ -168,7 +168,7 @@ TEST(StableTimestep, SettledPackingStaysAtRestAtTheAcceptedStep) {
   }
 }
 
-/// A cube of 27 balls that are pressed together by six walls, each ball in six contacts.
+/// A cube of 27 balls pressed together by six walls, each ball having six contacts.
 Simulation pressed_cube(const PairCoefficients& pair, double timestep_s) {
   constexpr double kPitch_m = 1.99 * kBallRadius_m;
   SimulationSetup setup = ball_scene(pair);
@@ -194,7 +194,7 @@ Simulation pressed_cube(const PairCoefficients& pair, double timestep_s) {
   return simulation;
 }
 
-/// Kinetic energy of such a cube after 5000 steps, over that at the beginning.
+/// Kinetic energy of such a cube after 5000 steps, relative to the initial one.
 double motion_left(const PairCoefficients& pair, double timestep_fraction) {
   Simulation probe = pressed_cube(pair, 1e-9);
   probe.advance(1);
@@ -204,7 +204,7 @@ double motion_left(const PairCoefficients& pair, double timestep_fraction) {
   return simulation.energies().kinetic_j / before;
 }
 
-// The dampers of six contacts are added up.
+// The damping of six contacts adds up.
 TEST(RoughDeadGrains, PressedTogetherComeToRestInAcceptedSteps) {
   for (const double e : {.01, .06, .2, .5}) {
     for (const double fraction : {kImpactFraction, kCourseFraction, kBulkFraction}) {
@@ -244,7 +244,7 @@ TEST(Audit, DeepOverlapIsCaught) {
   EXPECT_THAT(instability(simulation, 1), HasSubstr("% of a radius"));
 }
 
-/// A ball just above the plane, at 1 m/s.
+/// A ball just above the plane, moving at 1 m/s.
 Simulation falling_ball(SimulationSetup setup) {
   Grain ball;
   ball.position.z() = 1.001 * kBallRadius_m;
@@ -280,7 +280,7 @@ TEST(Audit, ATooLongStepIsSeenAtAnImpactBetweenTwoAudits) {
   EXPECT_THAT(instability(simulation, 200), HasSubstr("Fix: a shorter time step"));
 }
 
-/// A ball that rests on the plane, so heavy that it is pressed in by this fraction of its radius.
+/// A ball resting on the plane, so heavy that it is pressed in by this fraction of its radius.
 Simulation ball_pressed_in(double fraction) {
   SimulationSetup setup = ball_on_plane(.5);
   const double usual = 1 - resting_sphere(setup, 0).position.z() / kBallRadius_m;

@@ -88,7 +88,7 @@ TEST(WallAt, TurnsAboutItsPivot) {
   EXPECT_NEAR((end.pose.orientation * Vector::UnitX() - Vector::UnitY()).norm(), 0, 1e-15);
 }
 
-/// Where a point that sits on the wall is at a time.
+/// Position, at a given time, of a point fixed to the wall.
 Vector carried(const Wall& wall, const Vector& own, double time) {
   const Pose pose = wall_at(wall, time).pose;
   return pose.position + pose.orientation * own;

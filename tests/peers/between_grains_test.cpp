@@ -15,8 +15,7 @@
 #include "tests/peers/exported.h"
 #include "tests/peers/liggghts.h"
 
-// Decks of the experiments between grains in LIGGGHTS, against our own: the same poses, the same
-// beds.
+// Decks of the experiments between grains in LIGGGHTS, compared with ours: same poses, same beds.
 
 namespace repose::testing {
 namespace {
@@ -31,7 +30,7 @@ class BetweenGrains : public ::testing::Test {
   }
 };
 
-/// Soft grains, and one experiment.
+/// Soft grains and a single experiment.
 dem::Study study_of(const dem::Protocol& protocol, double restitution) {
   dem::Study study;
   study.model.grain_material = {"ball", 1000, 1e7, .3};
@@ -58,8 +57,8 @@ double their_swing_deg(const dem::Study& study, const dem::ClumpShape& grain) {
   return reading_of(study, grain, calibrate::liggghts_target(), "pendulum", "swing_deg");
 }
 
-// e = 2 sin(a / 2) / sin(b / 2) - 1 of a swing of a after a release at b. Low values come out some
-// .002 too low, from steps that do not end when the contact does.
+// e = 2 sin(a / 2) / sin(b / 2) - 1 for a swing to a after a release at b. Low values come out some
+// .002 too low, because steps do not end when the contact does.
 TEST_F(BetweenGrains, BallsOnStringsSwingAsTheClosedFormSays) {
   constexpr double kHalfDegree = std::numbers::pi / 360;
   for (const double restitution : {.1, .5, .9}) {
@@ -72,8 +71,8 @@ TEST_F(BetweenGrains, BallsOnStringsSwingAsTheClosedFormSays) {
   }
 }
 
-// Pairs of clumps meet in the same poses. Where several of their spheres touch at once, dampers
-// that may pull take a little more.
+// Pairs of clumps collide in the same poses. If several of their spheres touch at once, dampers
+// that may pull dissipate slightly more.
 TEST_F(BetweenGrains, ClumpsOnStringsSwingAlike) {
   for (const double restitution : {.1, .5, .9}) {
     const dem::Study study = study_of(dem::PendulumProtocol{}, restitution);
@@ -96,7 +95,7 @@ void expect_filled_alike(const dem::FillProtocol& tube, const dem::ClumpShape& g
   EXPECT_NEAR(theirs, ours, .07 * ours);
 }
 
-// Single fillings of so few grains scatter by 2 %.
+// Single fillings with so few grains scatter by 2 %.
 TEST_F(BetweenGrains, TubesOfBallsAreFilledAlike) {
   expect_filled_alike({.tube_diameter_m = .04, .tube_height_m = .04}, dem::sphere_shape(.003));
 }
@@ -105,7 +104,7 @@ TEST_F(BetweenGrains, TubesOfClumpsAreFilledAlike) {
   expect_filled_alike({.tube_diameter_m = .1, .tube_height_m = .1}, dem::test::spheroid_clump(3));
 }
 
-/// Means of draw-downs, each with a filling of its own.
+/// Mean values of draw-downs, each with its own filling.
 struct DrawDowns {
   double ours_percent = 0;
   double theirs_percent = 0;
@@ -128,10 +127,10 @@ DrawDowns draw_downs_of(const dem::DrawDownProtocol& boxes, const dem::ClumpShap
   return means;
 }
 
-// Single draw-downs of so few balls scatter by 2.6 % (standard deviation), so that two means of six
-// differ by 1.5 %. Theirs let out less by some 5 %, half of it because their dampers may pull: six
-// of ours are 76.5 %, of theirs 71.7 %, with `limitForce on` 74.2 %. A floor that does not hold
-// lets out 26 % more.
+// Single draw-downs of so few balls scatter by 2.6 % (standard deviation), so two means of six
+// differ by 1.5 %. LIGGGHTS discharges some 5 % less, half of it because its dampers may pull: the
+// means of six are 76.5 % for ours, 71.7 % for LIGGGHTS, and 74.2 % with `limitForce on`. A floor
+// that does not hold the grains discharges 26 % more.
 TEST_F(BetweenGrains, DrawDownsOfBallsRunOutAlike) {
   const DrawDowns means =
       draw_downs_of({.length_m = .26, .depth_m = .08, .slot_m = .1, .fill_m = .08, .drop_m = .14},
@@ -140,7 +139,7 @@ TEST_F(BetweenGrains, DrawDownsOfBallsRunOutAlike) {
   EXPECT_NEAR(means.theirs_percent, means.ours_percent, 8);
 }
 
-// One filling of each, whose difference scatters by 3.7 %.
+// One filling each; their difference scatters by 3.7 %.
 TEST_F(BetweenGrains, ADrawDownOfClumpsRunsOutAlike) {
   const DrawDowns means =
       draw_downs_of({.length_m = .32, .depth_m = .1, .slot_m = .13, .fill_m = .1, .drop_m = .18},
@@ -148,8 +147,8 @@ TEST_F(BetweenGrains, ADrawDownOfClumpsRunsOutAlike) {
   EXPECT_NEAR(means.theirs_percent, means.ours_percent, 8);
 }
 
-// Clumps land on several spheres at once, where dampers that may pull take more, as in a drop on a
-// wall.
+// Clumps land on several spheres at once, where dampers that may pull dissipate more, as in a drop
+// on a wall.
 void expect_rebound_alike(const dem::ClumpShape& grain, double limit) {
   const dem::GrainDropProtocol protocol{.height_m = .1, .grains = 6};
   const dem::Study study = study_of(protocol, .6);
@@ -168,7 +167,7 @@ TEST_F(BetweenGrains, ClumpsReboundAlikeFromGluedClumps) {
   expect_rebound_alike(dem::test::spheroid_clump(3), .1);
 }
 
-/// The angle at which three bodies on three places leave, on average.
+/// The mean angle at which bodies leave, with three bodies on three places.
 constexpr int kPlaces = 3;
 constexpr double kRate_deg_s = 10;
 constexpr double kLeave_deg = 2;

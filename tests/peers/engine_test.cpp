@@ -1,4 +1,4 @@
-// The studies of samples/engines: a run of each whose program is installed.
+// The studies in samples/engines: one run of each whose program is installed.
 #include "calibrate/engine/engine.h"
 
 #include <filesystem>
@@ -20,7 +20,7 @@ namespace {
 
 struct Sample {
   std::string folder;
-  std::string program;  ///< and what it is asked to see whether it is there
+  std::string program;  ///< with arguments that show whether it is installed
   std::vector<std::string> words;
 
   friend std::ostream& operator<<(std::ostream& out, const Sample& sample) {

@@ -3,8 +3,8 @@
 #include "tests/dem/experiment_model.h"
 #include "tests/peers/exported.h"
 
-// Exported decks in the programs that they are for, against our own experiments: the same poses,
-// the same ways. Limits are shares of our reading, of tilt degrees.
+// Exported decks in their target programs, compared with our own experiments: same poses, same
+// distances. Limits are fractions of our reading; for the tilt, degrees.
 
 namespace repose::testing {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using calibrate::ExportTarget;
 using dem::RollingModel;
 
-/// How far theirs may be off.
+/// Allowed deviations of the other program.
 struct Limits {
   double drop = 0;
   double tilt_deg = 0;
@@ -38,18 +38,18 @@ class Export : public ::testing::TestWithParam<ExportTarget> {
   }
 };
 
-/// In LAMMPS and YADE rolling friction comes from a spring that is too soft for impacts to wind up.
+/// In LAMMPS and YADE rolling friction comes from a spring too soft to be wound up by an impact.
 bool has_soft_rolling_spring(ExportTarget target) { return target != calibrate::liggghts_target(); }
 
-// A damper that may pull returns a little more than ours of an impact with gravity on: 1 % of the
-// height. The angle of tilt is looked up every .02 degrees, after the slip.
+// Under gravity, a damper that may pull makes a ball rebound slightly higher than ours: by 1 % of
+// the height. The tilt angle is sampled every .02 degrees, after the slip.
 TEST_P(Export, SphereReadsAlike) {
   expect_alike(short_study(RollingModel::constant_torque), dem::sphere_shape(.01),
                {.drop = .015, .tilt_deg = .05, .roll = .01}, GetParam());
 }
 
-// Ours and LIGGGHTS's spring have a damper, which takes spin when the ball lands at the foot of the
-// incline: 16 % of the way.
+// The springs of ours and of LIGGGHTS have a damper, which takes spin when the ball lands at the
+// foot of the incline: 16 % of the distance.
 TEST_P(Export, SphereWithARollingSpringReadsAlike) {
   expect_alike(
       short_study(RollingModel::elastic_plastic), dem::sphere_shape(.01),
@@ -57,9 +57,9 @@ TEST_P(Export, SphereWithARollingSpringReadsAlike) {
       GetParam());
 }
 
-// Two things lower a clump's rebound there: dampers that may pull, where several spheres land; and
-// spin that no rolling friction takes, where springs are soft. Rolling friction is converted with
-// the mean lever of lying poses.
+// Two effects lower a clump's rebound there: dampers that may pull, if several spheres land; and
+// spin that no rolling friction takes, if springs are soft. Rolling friction is converted with the
+// mean lever of lying poses.
 TEST_P(Export, ClumpReadsAlike) {
   expect_alike(
       short_study(RollingModel::constant_torque), dem::test::spheroid_clump(3),
@@ -67,8 +67,8 @@ TEST_P(Export, ClumpReadsAlike) {
       GetParam());
 }
 
-// Low values show whether the damper is converted: the textbook's factor without pull returns .33
-// for .2, which is 170 % more height.
+// Low values show whether the damping is converted: the textbook factor without pull gives .33
+// instead of .2, which is 170 % more height.
 TEST_P(Export, LowRestitutionComesOut) {
   expect_alike(short_study(RollingModel::relative_constant_torque, .2), dem::sphere_shape(.01),
                {.drop = .06, .tilt_deg = .07, .roll = .015}, GetParam());

@@ -15,7 +15,7 @@ namespace {
 
 using calibrate::ExportTarget;
 
-/// The program, and what its decks are called: "drop" + ending.
+/// The program and the file names of its decks: "drop" + ending.
 struct Program {
   std::string name;
   std::string ending;
@@ -28,7 +28,7 @@ Program program_of(ExportTarget target) {
   throw std::invalid_argument("there is no program to run this export");
 }
 
-/// The end of what a program printed.
+/// The end of a program's output.
 std::string last_of(const std::string& text) {
   constexpr std::size_t kShown = 600;
   return text.substr(text.size() - std::min(text.size(), kShown));
@@ -53,7 +53,7 @@ double mean_rise_mm(const TemporaryFolder& folder, const std::string& deck, int 
   return 1e3 * sum_m / grains;
 }
 
-/// Writes the export into the folder.
+/// Writes the export to the folder.
 void write_decks(const TemporaryFolder& folder, const dem::Study& study,
                  const dem::ClumpShape& grain, ExportTarget target) {
   calibrate::write_export(
@@ -96,7 +96,7 @@ dem::Study short_study(dem::RollingModel rolling, double restitution) {
 Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain) {
   dem::Model model = study.model;
   model.grain = grain;
-  model.grain_grain = model.grain_wall;  // of no effect
+  model.grain_grain = model.grain_wall;  // has no effect
   return {
       .drop_mm = run_drop(model, study.protocol<dem::DropProtocol>(), study.seed).value.value(),
       .tilt_deg = run_tilt(model, study.protocol<dem::TiltProtocol>(), study.seed)
@@ -137,7 +137,7 @@ bool has_program_for(ExportTarget target) {
   const std::string name = program_of(target).name;
   if (target == calibrate::yade_target())
     return run_program(name, {}, {"--version"}).exit_code == 0;
-  // LIGGGHTS knows no option that only tells its version: an empty deck ends at once.
+  // LIGGGHTS has no option that only prints its version; an empty deck ends at once.
   return run_program(name, {}, {"-in", "/dev/null", "-log", "none"}).exit_code == 0;
 }
 

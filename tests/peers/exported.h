@@ -7,14 +7,14 @@
 #include "dem/study/study.h"
 #include "tests/support/run_program.h"
 
-/// Exported studies as other programs run them.
+/// Exported studies, run by the programs they were exported for.
 namespace repose::testing {
 
-/// Soft grains on a stiffer wall, short ways: a run takes seconds everywhere.
+/// Soft grains on a stiffer wall, short distances: a run takes seconds in every program.
 dem::Study short_study(dem::RollingModel rolling, double restitution = .5);
 
-/// What the experiments of a study read: rebound (mm), plate's angle after half a millimetre of
-/// slip (degrees), way along the flat (mm).
+/// Readings of a study's experiments: rebound (mm), angle of the plate after half a millimetre of
+/// slip (degrees), distance along the flat (mm).
 struct Readings {
   double drop_mm = 0;
   double tilt_deg = 0;
@@ -23,26 +23,26 @@ struct Readings {
 
 Readings our_readings(const dem::Study& study, const dem::ClumpShape& grain);
 
-/// The export, run by its program. Throws std::runtime_error with the last of its output when it
-/// fails or reads nothing.
+/// Runs the export in its program. Throws std::runtime_error with the end of its output if it fails
+/// or gives no reading.
 Readings readings_of(const dem::Study& study, const dem::ClumpShape& grain,
                      calibrate::ExportTarget target);
 
-/// The export's deck of one experiment, run with further arguments of its program: the reading that
-/// it prints. Throws as above.
+/// Runs the exported deck of one experiment, with additional program arguments, and returns the
+/// reading it prints. Throws as above.
 double reading_of(const dem::Study& study, const dem::ClumpShape& grain,
                   calibrate::ExportTarget target, const std::string& deck, const std::string& name,
                   const std::vector<std::string>& arguments = {});
 
-/// Runs a deck that lies in the folder, with further arguments of its program. Throws as above.
+/// Runs a deck in the folder, with additional program arguments. Throws as above.
 Finished run_deck(const TemporaryFolder& folder, calibrate::ExportTarget target,
                   const std::string& deck, const std::vector<std::string>& arguments = {});
 
-/// Mean rebound of the export's drop or drop_on_grains, run. Throws as above.
+/// Mean rebound in the exported drop or drop_on_grains. Throws as above.
 double rebound_mm_of(const dem::Study& study, const dem::ClumpShape& grain,
                      calibrate::ExportTarget target, const std::string& deck, int grains);
 
-/// Whether the program starts.
+/// Whether the program can be started.
 bool has_program_for(calibrate::ExportTarget target);
 
 }  // namespace repose::testing

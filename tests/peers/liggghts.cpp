@@ -6,7 +6,7 @@
 namespace repose::testing {
 
 bool has_liggghts() {
-  // It knows no option that only tells its version: an empty deck ends at once.
+  // It has no option that only prints its version; an empty deck ends at once.
   return run_program("liggghts", {}, {"-in", "/dev/null", "-log", "none"}).exit_code == 0;
 }
 

@@ -5,7 +5,7 @@
 #include "calibrate/simulators/liggghts_scene.h"
 #include "tests/support/run_program.h"
 
-/// LIGGGHTS-PUBLIC 3.8, which Debian has as the package `liggghts`, on decks of our scenes.
+/// LIGGGHTS-PUBLIC 3.8, Debian package `liggghts`, on decks of our scenes.
 namespace repose::testing {
 
 inline constexpr const char* kNoLiggghts =
@@ -13,7 +13,7 @@ inline constexpr const char* kNoLiggghts =
 
 bool has_liggghts();
 
-/// Throws std::runtime_error with the last of its output when it fails.
+/// Throws std::runtime_error with the end of its output if it fails.
 Finished run_liggghts(const TemporaryFolder& folder, const std::string& deck);
 
 }  // namespace repose::testing

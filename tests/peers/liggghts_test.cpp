@@ -10,7 +10,7 @@
 #include "dem/engine/time_step.h"
 #include "dem/verify/scene.h"
 
-// The same ball in LIGGGHTS and here, each held against the closed form and against the other.
+// The same ball in LIGGGHTS and here, each compared with the closed form and with the other.
 
 namespace repose::testing {
 namespace {
@@ -27,7 +27,7 @@ class Liggghts : public ::testing::Test {
     if (!is_there) GTEST_SKIP() << kNoLiggghts;
   }
 
-  /// What LIGGGHTS makes of one ball and the commands after its set-up: the ball at each frame.
+  /// Runs LIGGGHTS with one ball and the commands after its set-up; returns the ball at each frame.
   std::vector<dem::Grain> run(const dem::SimulationSetup& setup, const dem::Grain& ball,
                               calibrate::DeckOptions options, const std::string& commands) const {
     options.start = "read_data ball.txt";
@@ -53,10 +53,10 @@ dem::SimulationSetup ball_on_plane(const dem::PairCoefficients& pair, RollingMod
   return setup;
 }
 
-/// Gravity as it is felt on a plane tilted so far.
+/// Gravity as felt on a plane tilted by `tilt`.
 Vector gravity_at(double tilt) { return kGravity * Vector(std::sin(tilt), 0, -std::cos(tilt)); }
 
-/// Goes on from where a simulation is, under another gravity.
+/// Continues a simulation under different gravity.
 dem::Simulation under_gravity(const dem::Simulation& simulation, const Vector& gravity) {
   dem::SimulationSetup setup = simulation.setup();
   setup.gravity = gravity;
@@ -65,7 +65,7 @@ dem::Simulation under_gravity(const dem::Simulation& simulation, const Vector& g
 
 constexpr double kFall_m = .2;
 
-/// Speed after / before a fall, from the height of the rebound.
+/// Ratio of the speeds after and before the impact, from the height of the rebound.
 double restitution_from(const std::vector<double>& heights) {
   const auto lowest = std::adjacent_find(heights.begin(), heights.end(), std::less<>());
   const double top = *std::max_element(lowest, heights.end());
@@ -110,10 +110,10 @@ double our_restitution(const Drop& drop) {
   return restitution_from(heights);
 }
 
-// LIGGGHTS lets the damper pull, with the factor that then gives e; ours never pulls, with another
-// factor that gives e as well. The ball's weight acts during the impact, for T = .9 ms at v = 2
-// m/s, and takes up to g T / v = .005 off both alike. What is left are steps that do not end when
-// the contact does.
+// LIGGGHTS lets the damper pull, with the factor that then gives e; ours never pulls, and gives e
+// with another factor. The ball's weight acts during the impact, for T = .9 ms at v = 2 m/s, and
+// lowers both by up to g T / v = .005. The remainder is due to steps that do not end when the
+// contact does.
 TEST_F(Liggghts, DroppedBallReboundsAlike) {
   for (const double restitution : {.1, .3, .5, .7, .9}) {
     const Drop drop = drop_of(restitution);
@@ -126,8 +126,8 @@ TEST_F(Liggghts, DroppedBallReboundsAlike) {
   }
 }
 
-// Told not to pull, it keeps its factor and rebounds higher: by what our equation says of that
-// factor. Same tolerance as above.
+// If its damper may not pull, it keeps its factor and rebounds higher, by what our equation gives
+// for that factor. Same tolerance as above.
 TEST_F(Liggghts, DamperThatMayNotPullReboundsAsOurEquationSays) {
   calibrate::DeckOptions options;
   options.model_settings = "limitForce on";
@@ -139,29 +139,29 @@ TEST_F(Liggghts, DamperThatMayNotPullReboundsAsOurEquationSays) {
   }
 }
 
-/// A plane that is tilted in small steps, each held for a while.
+/// A plane tilted in small steps, each held for a while.
 constexpr double kTiltStep_deg = .1;
 constexpr double kHold_s = .01;
 
 /// The tilt at which the ball has slipped.
 double slip_deg(const std::vector<dem::Grain>& balls) {
-  constexpr double kSlipped_m = 1e-5;  // the tangential spring gives 2e-6 m before
+  constexpr double kSlipped_m = 1e-5;  // before that, the tangential spring yields by 2e-6 m
   const auto slipped = std::find_if(balls.begin(), balls.end(), [&](const dem::Grain& ball) {
     return ball.position.x() - balls.front().position.x() > kSlipped_m;
   });
   return kTiltStep_deg * static_cast<double>(slipped - balls.begin());
 }
 
-// The ball cannot turn, so it slides like a block, from atan(mu) on. It starts with next to no
-// acceleration and has gone .01 mm some .3 degrees later; so both may be up to .5 degrees late, but
-// by the same: one step of tilt is what can be told apart.
+// The ball cannot rotate, so it slides like a block, from atan(mu) on. It starts with almost no
+// acceleration and has moved .01 mm some .3 degrees later; so both may be up to .5 degrees late,
+// but by the same amount: the resolution is one tilt step.
 TEST_F(Liggghts, BallThatCannotTurnSlipsAtTheSameTilt) {
   calibrate::DeckOptions options;
-  options.integrator = "nve";  // moves, never turns
+  options.integrator = "nve";  // translates, never rotates
   for (const double friction : {.2, .39}) {
     dem::SimulationSetup setup =
         ball_on_plane({.restitution = .5, .sliding_friction = friction}, RollingModel::none, .1);
-    setup.kinds[0].shape.gyration_m2 = Vector::Constant(1e6);  // 4e-5 if it could turn
+    setup.kinds[0].shape.gyration_m2 = Vector::Constant(1e6);  // 4e-5 if it could rotate
     const dem::Grain ball = dem::resting_sphere(setup, 0);
     const int hold = static_cast<int>(kHold_s / setup.timestep_s);
     const double onset_deg = std::atan(friction) / kDegree;
@@ -185,9 +185,9 @@ TEST_F(Liggghts, BallThatCannotTurnSlipsAtTheSameTilt) {
   }
 }
 
-// Down an incline, which turns flat at once (a corner would cost energy), until it lies still.
-// The energy balance, L = S (sin(tilt) - mu_r cos(tilt)) / mu_r, is exact but for overlaps of .05 %
-// of the radius and the jolt at the foot, where the ball's load grows by 6 % at once: .2 %.
+// Down an incline, which turns flat instantly (a corner would cost energy), until it is at rest.
+// The energy balance, L = S (sin(tilt) - mu_r cos(tilt)) / mu_r, is exact except for overlaps of
+// .05 % of the radius and the jolt at the foot, where the ball's load suddenly grows by 6 %: .2 %.
 TEST_F(Liggghts, BallRollsAsFarOnTheFlat) {
   constexpr double kTilt = 20 * kDegree;
   constexpr double kLength_m = .05;

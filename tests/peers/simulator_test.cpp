@@ -1,4 +1,4 @@
-// LIGGGHTS as an engine: our experiments, made and read back by it, beside ours.
+// LIGGGHTS as an engine: it runs our experiments; its results are read back and compared with ours.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -61,7 +61,7 @@ class LiggghtsSimulator : public ::testing::TestWithParam<std::string> {
   }
   virtual std::string model() const { return "elastic_plastic"; }
 
-  /// Ours and theirs.
+  /// Our run and theirs.
   static std::vector<RunResult> both(const dem::Study& study, const char* experiment,
                                      std::uint64_t seed = 1) {
     const calibrate::NamedGrain grain(dem::build_grain(study.grain));
@@ -81,8 +81,8 @@ class LiggghtsLaws : public LiggghtsSimulator {
  protected:
   std::string model() const override { return GetParam(); }
 
-  /// Done, and made of what, as where exports are tried: on a steeper plate, and of softer grains,
-  /// those of cdt creep and those of epsd hop, in the two programs otherwise.
+  /// With procedure and material of the export tests. On a steeper plate, and with softer grains,
+  /// grains with cdt creep and those with epsd hop, differently in the two programs.
   static dem::Study as_exported(dem::Study study) {
     const dem::Study shorter = short_study(study.model.rolling);
     study.model = shorter.model;
@@ -92,11 +92,10 @@ class LiggghtsLaws : public LiggghtsSimulator {
   }
 };
 
-// The onset of sliding is that of friction, atan(.4) = 21.80 degrees, in both with epsd. With cdt
-// the body trembles: its contacts stick again and again, and there the tangential damper of
-// LIGGGHTS adds to a spring at Coulomb's limit, which holds the body up to .19 degrees longer, at
-// .09 to .2 in steps of 4 to 34 us. With `tangential_damping off`, by hand, it slid at 21.78
-// degrees.
+// With epsd, sliding begins in both at the friction angle, atan(.4) = 21.80 degrees. With cdt the
+// body trembles: its contacts stick again and again, and then the tangential damper of LIGGGHTS
+// adds to a spring at Coulomb's limit, which holds the body up to .19 degrees longer, by .09 to .2
+// in steps of 4 to 34 us. With `tangential_damping off`, set by hand, it slid at 21.78 degrees.
 TEST_P(LiggghtsLaws, TiltIsReadAtItsOnset) {
   constexpr double kTolerance_deg = .1;
   const double held_deg = GetParam() == "elastic_plastic" ? 0 : .2;
@@ -139,19 +138,19 @@ TEST_F(LiggghtsSimulator, HeapIsReadBackRenderedAndMeasuredAsOurs) {
   EXPECT_EQ(heap.readings.at("grains"), 120);
   EXPECT_EQ(heap.readings.at("grains_on_plate") + heap.readings.at("grains_off_plate"), 120);
   EXPECT_NEAR(value_of(heap).value(), heap.value.value(), 4);
-  // Grains in the poses of a heap at rest: none is deep in another or in the plate.
+  // Grains in the poses of a heap at rest: none overlaps deeply with another or with the plate.
   const dem::SavedState state = dem::read_state(store.state_file(spec, 3));
   dem::Simulation simulation(state.setup, state.checkpoint);
   EXPECT_EQ(simulation.grain_count(), heap.readings.at("grains_on_plate"));
   simulation.advance(1);
   EXPECT_LT(simulation.deepest_overlap(), .05);
-  // Found again, by its own simulator alone.
+  // Found again, but only by its own simulator.
   EXPECT_EQ(text_of(simulate_experiment(spec, 3, options)), text_of(heap));
   spec.simulator = calibrate::own_simulator();
   EXPECT_FALSE(store.find(spec, 3));
 }
 
-// Of grains so soft that most fall through the plate.
+// Grains so soft that most fall through the plate.
 TEST_F(LiggghtsSimulator, GrainsThatFallThroughThePlateAreCounted) {
   dem::Study balls = study(kSoftBalls);
   balls.model.grain_material.young_modulus_pa = 500;
@@ -177,13 +176,13 @@ TEST_F(LiggghtsSimulator, GrainsThatFallOffThePlateAreCounted) {
   EXPECT_EQ(heap.readings.at("grains_on_plate") + heap.readings.at("grains_off_plate"), 120);
 }
 
-// A grain finds no room where it would lie across the border of two processes: it is put in later.
+// A grain finds no room if it would lie across the border of two processes: it is inserted later.
 TEST_F(LiggghtsSimulator, SeveralProcessesPutAllGrainsIn) {
   if (run_program("mpirun", {}, {"--version"}).exit_code != 0) {
     GTEST_SKIP() << "mpirun is not installed; nothing was compared. Fix: apt-get install "
                     "openmpi-bin";
   }
-  // Else it starts nothing for the administrator, whom containers run as.
+  // Otherwise it refuses to run as root, the usual user in containers.
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
   const dem::Study nuts = study();

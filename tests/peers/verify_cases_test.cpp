@@ -1,5 +1,5 @@
-// The cases of `repose verify` in LIGGGHTS: those that hold there, and those of which it is known
-// that its laws are others.
+// The cases of `repose verify` in LIGGGHTS: those that hold there, and those known to differ
+// because its laws do.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -41,8 +41,8 @@ class LiggghtsCases : public ::testing::Test {
   std::unique_ptr<const dem::CasePeer> peer_;
 };
 
-// Hertz's law, friction that slides, and rolling friction are the same there, in impacts and on
-// planes of any tilt.
+// Hertz's law, sliding friction and rolling friction are the same there, in impacts and on planes
+// of any tilt.
 TEST_F(LiggghtsCases, WhatHasOneLawInBothComesOutAsExpected) {
   for (const char* name :
        {"T1 two spheres, glass", "T1 two spheres, limestone", "T2 rigid wall, Al alloy",
@@ -66,9 +66,9 @@ TEST_F(LiggghtsCases, RestitutionComesOutWithADamperThatPulls) {
   }
 }
 
-// Its tangential spring is the slip times the stiffness of the moment, S_t(now) x: as a contact
-// unloads, its energy sinks without doing work, and as it loads energy comes from nothing. Ours
-// stays below 1e-4.
+// Its tangential spring force is the slip times the current stiffness, S_t(now) x: as a contact
+// unloads, its energy decreases without doing work, and as it loads, energy is created. Ours stays
+// below 1e-4.
 TEST_F(LiggghtsCases, ElasticObliqueImpactsGainEnergyThere) {
   double most = 0;
   for (const dem::CaseResult& result : run("energy of elastic oblique impacts")) {

@@ -1,4 +1,4 @@
-// Opens reports in Chromium, as a reader would:
+// Opens reports in Chromium as a reader would:
 // node browser_test.mjs REPOSE CHROMIUM PHOTOGRAPH HEAP MADE_UP_RESULT
 //
 //   REPOSE      the program
@@ -7,10 +7,10 @@
 //   HEAP        a study file whose heap is quickly simulated
 //   MADE_UP_RESULT  the program that writes a result
 //
-// What must hold: nothing is fetched, no error is told, no name becomes markup, every chart is drawn
-// with its titles inside it, on a desk, on a telephone and on paper, what can be scrolled sideways has a
-// sign, what can be clicked reacts, a photograph tells its pixels and its command, and on a telephone verdicts
-// are seen without scrolling sideways. Before the appendix there are eight pages of paper at most. Load
+// Requirements: nothing is fetched, no error is reported, no name becomes markup, every chart is drawn
+// with its titles inside it, on a desktop, a phone and paper, anything that scrolls sideways shows it,
+// anything clickable reacts, a photograph shows pixel positions and its command, and on a phone verdicts
+// are visible without scrolling sideways. Before the appendix there are at most eight printed pages. Load
 // times are only printed.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
@@ -58,7 +58,7 @@ const open = async (browser, file, width) => {
   return {page, errors};
 };
 
-// What is wrong with the charts of a page, a line each.
+// Errors in the charts of a page, one line each.
 const chartErrors = (page) => page.evaluate(() => {
   const errors = [];
   for (const figure of document.querySelectorAll('.chart')) {
@@ -92,19 +92,19 @@ const checkPage = async (page, errors) => {
   assert.deepEqual(errors, []);
 };
 
-// Names of boxes with something out of sight to their right that nothing tells of.
+// Names of boxes with hidden content to their right and no sign of it.
 const hiddenWithoutSign = (page) => page.evaluate(() => [...document.querySelectorAll('main *')]
   .filter((box) => box.scrollWidth > box.clientWidth + 1 && getComputedStyle(box).overflowX !== 'visible' && getComputedStyle(box).display !== 'inline')
   .filter((box) => !box.closest('.plot') && !box.matches('.scrolls'))
   .map((box) => `${box.tagName}.${box.className}`));
 
-// Verdicts out of sight to the right: of the coefficients, and of what agrees.
+// Verdicts hidden to the right, in the tables of coefficients and of agreement.
 const verdictsOutOfSight = (page) => page.evaluate(() => [...document.querySelectorAll('#answer table, #agreement table')]
   .filter((table) => table.querySelector('th:last-child').textContent === 'verdict')
   .filter((table) => table.querySelector('td:last-child').getBoundingClientRect().right > innerWidth)
   .map((table) => table.caption.textContent));
 
-// How much of the page's width the widest of its texts takes.
+// Fraction of the page's width that its text covers.
 const widthOfText = (page) => page.evaluate(() => {
   const body = getComputedStyle(document.body);
   const room = document.body.clientWidth - parseFloat(body.paddingLeft) - parseFloat(body.paddingRight);
@@ -125,7 +125,7 @@ const cutOnPaper = async (page) => {
   return cut;
 };
 
-// How many pages of paper a page takes.
+// Number of printed pages.
 const printedPages = async (page) => {
   const pdf = await page.pdf({preferCSSPageSize: true, printBackground: true, timeout: kPatience_ms});
   return [...Buffer.from(pdf).toString('latin1').matchAll(/\/Type\s*\/Page\b(?!s)/g)].length;
@@ -149,8 +149,8 @@ const click = (page, figure, text) => page.evaluate((id, wanted) => {
   button.click();
 }, figure, text);
 
-// A mark that can be hit: in sight, and where it was for half a second, with every chart drawn. Charts
-// above it that are drawn anew move it.
+// Waits until a mark can be clicked: in sight, and still for half a second with every chart drawn, since
+// charts redrawn above it move it.
 const inPlace = async (page, mark) => {
   await mark.evaluate((element) => element.scrollIntoView({block: 'center', behavior: 'instant'}));
   const place = () => mark.evaluate((element) => {
@@ -193,7 +193,7 @@ const checkInteraction = async (page) => {
   await page.waitForFunction((id) => document.querySelector(`${id} .plot`).data.some(({visible}) => visible === 'legendonly'), {}, first);
 };
 
-// In the photo report the place under the pointer is told in the picture's pixels, and the command is copied.
+// In the photo report the pointer's position is shown in the picture's pixels, and the command can be copied.
 const checkMarks = async (page, size) => {
   const picture = await page.$('[data-pixels] img');
   await picture.evaluate((image) => image.scrollIntoView({block: 'start', behavior: 'instant'}));

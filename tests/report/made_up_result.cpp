@@ -1,6 +1,6 @@
-// Writes a result.json that has everything a report can show, with names that try to be markup:
+// Writes a result.json with everything a report can show, and names that try to be markup, and, if
+// asked, a run with such a name:
 // made_up_result RESULT.json [RUN.json]
-// and a run of a name of that kind.
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -19,7 +19,7 @@ const std::string kHostile =
 const std::string kLong(10'000, 'x');
 constexpr double kLow = .1, kHigh = .9;
 
-/// A number measured, and the coefficients that move it.
+/// A measured reading and the coefficients that affect it.
 struct Made {
   std::string name;
   std::string unit;

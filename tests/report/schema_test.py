@@ -1,4 +1,4 @@
-"""What repose calibrate writes is what the schema describes: schema_test.py REPOSE SCHEMA"""
+"""The output of repose calibrate conforms to the schema: schema_test.py REPOSE SCHEMA"""
 
 import copy
 import json
@@ -9,7 +9,7 @@ import tempfile
 
 import jsonschema
 
-# A soft ball: seconds to run.
+# A soft ball, which takes seconds to run.
 BALL = """
 [particle]
 size_mm = [20, 20, 20]
@@ -22,7 +22,7 @@ young_modulus_pa = 1e8
 poisson_ratio = 0.3
 """
 STUDIES = {
-    # A drop tells its restitution and a tilting plate its friction.
+    # A drop determines restitution and a tilting plate friction.
     "joint": BALL
     + """
 [contact.particle_wall]
@@ -42,7 +42,7 @@ rate_deg_s = 10
 measured = { values = [20.1, 21.3, 20.7, 19.8] }
 """,
     # The published method needs all six coefficients and all four experiments; balls, or fewer
-    # grains, would lie in a layer, which has no angle.
+    # grains, would form a single layer, which has no angle.
     "paper": BALL.replace("[20, 20, 20]", "[24, 16, 15]").replace("spheres = 1", "spheres = 3")
     + """
 [contact.particle_wall]
@@ -71,7 +71,7 @@ grains = 220
 measured = { mean = 25, sd = 1, n = 5 }
 """,
 }
-# Of another program, as a table: y = 2 x + z, two runs a row.
+# Runs of another program, as a table: y = 2 x + z, two runs per row.
 TABLE = """
 [parameter]
 x = { min = 0, max = 1 }
@@ -83,7 +83,7 @@ w = { mean = 1, sd = 0.1, n = 1, held_out = true }
 ROWS = "x,z,y,y_sd,w,n\n" + "".join(
     f"{x},{z},{2 * x + z + .01 * ((3 * x + 7 * z) % 1)},.02,{x * z + x},2\n"
     for x in (.1, .35, .6, .85) for z in (.05, .3, .7, .95)) + "1,1,NaN,,,1\n"
-# Keys that a result need not have.
+# Keys that may be missing from a result.
 OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions", "candidates", "held_out",
             "stiffness_checks", "stiffer_coefficients", "shape_check", "narrowing", "heap_definition", "assumed",
             "systematic_uncertainty", "assumed_inputs", "with_assumed", "inputs_taken_as_exact",
@@ -94,7 +94,7 @@ OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions
 
 
 def undescribed(schema, place="schema"):
-    """Every key of the schema without a description, as text."""
+    """The path of every key of the schema that has no description."""
     missing = []
     if isinstance(schema, dict):
         for name, part in schema.get("properties", {}).items():
@@ -109,7 +109,7 @@ def undescribed(schema, place="schema"):
 
 
 def open_objects(schema, place="schema"):
-    """Objects that let unknown keys through."""
+    """Objects that accept unknown keys."""
     found = []
     if isinstance(schema, dict):
         if "properties" in schema and isinstance(schema["properties"], dict):
@@ -124,7 +124,7 @@ def open_objects(schema, place="schema"):
 
 
 def unrequired(schema, place="schema"):
-    """Keys that may be absent, and should not."""
+    """Keys that the schema does not require although it should."""
     found = []
     if isinstance(schema, dict):
         if isinstance(schema.get("properties"), dict):
@@ -139,7 +139,7 @@ def unrequired(schema, place="schema"):
 
 
 def result_of(repose, method):
-    """What repose calibrate writes."""
+    """The result of repose calibrate."""
     with tempfile.TemporaryDirectory() as folder:
         study = pathlib.Path(folder) / "study.toml"
         study.write_text(STUDIES[method], encoding="utf-8")
@@ -152,7 +152,7 @@ def result_of(repose, method):
 
 
 def result_of_table(repose):
-    """What repose calibrate --runs writes."""
+    """The result of repose calibrate --runs."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "table.toml").write_text(TABLE, encoding="utf-8")
@@ -163,7 +163,7 @@ def result_of_table(repose):
 
 
 def check(schema, result, method):
-    """The result of one method against its branch of the schema, whose errors are named."""
+    """Checks the result of one method against its branch of the schema, so that errors are specific."""
     validator = jsonschema.Draft202012Validator(
         {"$ref": f"#/$defs/{method}", "$defs": schema["$defs"]}
     )
