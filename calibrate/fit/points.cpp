@@ -69,8 +69,9 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
 
 double run_s_of(const Experiment& experiment, const AssumedInputs& inputs) {
   constexpr double kStepsByStiffness = .4;
+  const double many = inputs.size == 1 ? 1 : experiment.many_grains;
   return experiment.run_s * inputs.step.work * std::pow(inputs.stiffness, kStepsByStiffness) *
-         (1 + experiment.spheres_share * (inputs.spheres - 1)) / std::pow(inputs.size, 4);
+         (1 + experiment.spheres_share * (inputs.spheres - 1)) / (std::pow(inputs.size, 4) * many);
 }
 
 double usual_run_s(const Experiment& experiment) {

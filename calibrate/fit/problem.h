@@ -75,6 +75,8 @@ struct Experiment {
   double real_stiffness = 1;
   /// Fraction of run_s that scales with the number of spheres.
   double spheres_share = 0;
+  /// Factor in run_s because each step of each of many grains takes longer; coarse runs have few.
+  double many_grains = 1;
   /// Of a bench's "value": standard uncertainty common to all readings, as a fraction of it.
   /// Observables have it in their systematic_sd.
   double systematic_fraction = 0;

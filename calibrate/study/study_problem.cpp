@@ -57,6 +57,16 @@ double spheres_share(const dem::Study& study, const dem::ClumpShape& grain,
   return std::max(0., run_cost_s(study, twice, entry) / run_cost_s(study, grain, entry) - 1);
 }
 
+/// How much more a run takes than a coarse one beyond what fewer grains and longer steps save, each
+/// of which goes as a power of their size.
+double many_grains(const dem::Study& study, const dem::ClumpShape& grain,
+                   const dem::ExperimentEntry& entry, double coarse_size) {
+  dem::Study coarse = study;
+  entry.coarsen(coarse.experiments.at(&entry).protocol, coarse_size);
+  return run_cost_s(study, grain, entry) /
+         (std::pow(coarse_size, 4) * run_cost_s(coarse, dem::scaled(grain, coarse_size), entry));
+}
+
 bool is_ball(const dem::CalliperSizes& sizes) {
   return sizes.length_m == sizes.width_m && sizes.width_m == sizes.thickness_m &&
          sizes.tip_fraction == 0;
@@ -249,6 +259,7 @@ class StudyProblemBuilder {
       }
       return;
     }
+    const auto coarse = coarse_inputs(entry, described->second.protocol);
     made_.problem.experiments.push_back(
         {.name = name,
          .parameters = with_effect,
@@ -259,11 +270,12 @@ class StudyProblemBuilder {
          .scatter_within = entry.is_pictured ? kOneViewScatter : "",
          .real_stiffness = 1 / dem::model_for(study_, &entry).stiffness_factor,
          .spheres_share = spheres_share(study_, grain_.shape, entry),
+         .many_grains = coarse ? many_grains(study_, grain_.shape, entry, coarse->size) : 1,
          .systematic_fraction = systematic.sd,
          .systematic_sd = stated_sd(measured.systematic),
          .usual_scatter = entry.usual_scatter,
          .model_fraction = described->second.model_error.value_or(entry.usual_model_error),
-         .coarse = coarse_inputs(entry, described->second.protocol)});
+         .coarse = coarse});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured)
       add(with(systematic, observable_of(measured, entry.usual_scatter)), entry, "value");

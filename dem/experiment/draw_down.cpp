@@ -313,7 +313,8 @@ double cost_of_draw_down_s(const Model& model, const Protocol& protocol) {
   const auto& draw_down = protocol.as<DrawDownProtocol>();
   const double box_m3 = draw_down.length_m * draw_down.depth_m * draw_down.fill_m;
   const double grains = kPacked * box_m3 / model.grain.volume_m3;
-  return bulk_step_s(model) * grains * kSimulated_s / bulk_timestep_s(model, kFallSpeed_m_s);
+  return bulk_step_s(model) * many_grains_factor(grains) * grains * kSimulated_s /
+         bulk_timestep_s(model, kFallSpeed_m_s);
 }
 
 }  // namespace

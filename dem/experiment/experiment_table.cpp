@@ -1,6 +1,9 @@
 #include "dem/experiment/experiment_table.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -112,6 +115,20 @@ bool has_grain_contacts(Experiment experiment) {
 }
 
 double bulk_step_s(const Model& model) { return 1.5e-7 + 9e-9 * spheres_of(model); }
+
+double many_grains_factor(double grains) {
+  struct Measured {
+    double grains, factor;
+  };
+  constexpr std::array<Measured, 4> kMeasured{{{500, 1}, {5000, 1.2}, {15'000, 2}, {50'000, 2.9}}};
+  const auto above = std::ranges::find_if(
+      kMeasured, [&](const Measured& measured) { return measured.grains >= grains; });
+  if (above == kMeasured.begin()) return kMeasured.front().factor;
+  if (above == kMeasured.end()) return kMeasured.back().factor;
+  const Measured below = *std::prev(above);
+  return std::lerp(below.factor, above->factor,
+                   std::log(grains / below.grains) / std::log(above->grains / below.grains));
+}
 
 double step_on_wall_s(const Model& model, int bonded) {
   return 4e-7 + 5.5e-8 * spheres_of(model) * bonded;

@@ -227,9 +227,14 @@ Range readable_in(std::string_view unit);
 /// Whether a coefficient of the study affects the experiment's readings.
 bool depends_on(const ExperimentEntry& entry, std::string_view coefficient);
 
-/// Approximate time per grain and step in a bulk, s, on the core that cost_s refers to: cost_s
-/// divided by it is the number of grain steps.
+/// Approximate time per grain and step in a bulk of a few hundred, s, on the core that cost_s
+/// refers to.
 double bulk_step_s(const Model& model);
+
+/// How many times as long a step of each grain takes in a bulk of so many as in one of a few
+/// hundred, whose data fit into the caches: measured, dem/PERFORMANCE.md, "So repose has little
+/// advantage for large boxes". cost_s of a bulk has it as a factor.
+double many_grains_factor(double grains);
 
 /// Whether grains touch each other in it, so that it needs the coefficients between grains.
 bool has_grain_contacts(Experiment experiment);

@@ -235,7 +235,8 @@ double cost_of_fill_s(const Model& model, const Protocol& protocol) {
   const double pour_s =
       std::max(fill.tube_height_m / kRises_m_s, fill.pour_kg_s ? mass_kg / *fill.pour_kg_s : 0);
   const double simulated_s = pour_s + kTap_s * fill.taps.value_or(0);
-  return bulk_step_s(model) * grains * simulated_s / bulk_timestep_s(model, kFallSpeed_m_s);
+  return bulk_step_s(model) * many_grains_factor(grains) * grains * simulated_s /
+         bulk_timestep_s(model, kFallSpeed_m_s);
 }
 
 }  // namespace

@@ -363,7 +363,8 @@ double cost_of_heap_s(const Model& model, const Protocol& protocol) {
   constexpr double kFillAndSettle_s = 1.5, kSpeed_m_s = .5;
   const auto& heap = protocol.as<HeapProtocol>();
   const double simulated_s = heap.tube_diameter_m / heap.lift_speed_m_s + kFillAndSettle_s;
-  return bulk_step_s(model) * grains_in(heap, model.grain) * simulated_s /
+  const double grains = grains_in(heap, model.grain);
+  return bulk_step_s(model) * many_grains_factor(grains) * grains * simulated_s /
          bulk_timestep_s(model, kSpeed_m_s);
 }
 

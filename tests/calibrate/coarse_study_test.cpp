@@ -15,6 +15,7 @@
 #include "calibrate/study/study_problem.h"
 #include "calibrate/study/study_record.h"
 #include "calibrate/study/study_simulator.h"
+#include "dem/experiment/experiment_table.h"
 #include "tests/calibrate/sphere_study.h"
 #include "tests/support/temporary_folder.h"
 
@@ -147,6 +148,22 @@ TEST_F(CoarseStudy, TheFolderTellsMixedRunsFromFullOnes) {
   const StudyIdentity mixed = identity_of(few);
   few.budget.is_full = true;
   EXPECT_TRUE(is_same_study(mixed, identity_of(few)));
+}
+
+// dem/PERFORMANCE.md: of 5,000 and 50,000 each takes 1.2 and 2.9 times as long.
+TEST_F(CoarseStudy, ARunOfManyGrainsTakesLongerThanTheirNumber) {
+  const Problem few = problem_in(record(3)), many = problem_in(record(1.3));
+  const Experiment &heap_of_few = experiment_named(few, "heap"),
+                   &heap_of_many = experiment_named(many, "heap");
+  const double by_number = std::pow(3 / 1.3, 4);  // 2,000 and 24,000, and shorter steps
+  const double longer = heap_of_many.run_s / heap_of_few.run_s / by_number;
+  EXPECT_THAT(longer, AllOf(Ge(1.7), Le(2.5)));
+  EXPECT_NEAR(usual_run_s(heap_of_many) * std::pow(heap_of_many.coarse->size, 4),
+              heap_of_many.run_s / dem::many_grains_factor(24'000), .2 * heap_of_many.run_s);
+  EXPECT_EQ(dem::many_grains_factor(100), 1);
+  EXPECT_EQ(dem::many_grains_factor(5000), 1.2);
+  EXPECT_EQ(dem::many_grains_factor(1e6), 2.9);
+  EXPECT_NEAR(dem::many_grains_factor(8660), 1.6, .01) << "between, by the logarithm";
 }
 
 TEST_F(CoarseStudy, ItsRoundsAreForeseenAsCoarseRuns) {
