@@ -3,6 +3,7 @@
 import copy
 import json
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -90,7 +91,7 @@ OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions
             "degrees_of_freedom", "model_error_scale", "model_uncertainty", "model_sd",
             "assumed_scatter", "bench_correlation", "bounds_are", "useful_half_width", "systematic",
             "tolerance_from", "readings_to_decide", "possible", "hour", "checked_at", "repeats", "repeat_sd",
-            "reading_sd", "engine", "coarse", "size", "mixed", "grain_size"}
+            "reading_sd", "engine", "coarse", "size", "mixed", "grain_size", "provisional"}
 
 
 def undescribed(schema, place="schema"):
@@ -162,6 +163,23 @@ def result_of_table(repose):
         return json.loads((folder / "out/result.json").read_text(encoding="utf-8"))
 
 
+def interrupted_result(repose):
+    """What a study leaves that is interrupted after its first round."""
+    with tempfile.TemporaryDirectory() as folder:
+        study = pathlib.Path(folder) / "study.toml"
+        study.write_text(STUDIES["joint"], encoding="utf-8")
+        command = [repose, "calibrate", str(study), "--budget", "standard", "--jobs", "1", "--out", folder]
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as running:
+            for line in running.stderr:
+                if "after round 1" in line:
+                    running.send_signal(signal.SIGINT)
+                    break
+            running.stderr.read()
+        result = json.loads((pathlib.Path(folder) / "result.json").read_text(encoding="utf-8"))
+        assert "provisional" in result, "the study ended before it could be interrupted"
+        return result
+
+
 def check(schema, result, method):
     """Checks the result of one method against its branch of the schema, so that errors are specific."""
     validator = jsonschema.Draft202012Validator(
@@ -187,6 +205,7 @@ def main(repose, schema_file):
     assert not unrequired(schema), unrequired(schema)
     for method in STUDIES:
         check(schema, result_of(repose, method), method)
+    check(schema, interrupted_result(repose), "joint")
     check(schema, result_of_table(repose), "joint")
     print("results of both methods and of a table are as the schema says")
 
