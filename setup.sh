@@ -25,7 +25,7 @@ needed="g++ cmake ninja-build pkg-config
   zlib1g-dev libcairo2-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libctemplate-dev libcpp-httplib-dev libxlsxwriter-dev
   fonts-dejavu-core"
-# npm may also come from elsewhere than Debian.
+# npm may also come from a source other than Debian.
 command -v npm >/dev/null || needed="$needed npm"
 node_packages="calibrate/report studio/page"
 tests=OFF
@@ -54,7 +54,7 @@ trap 'exit 130' INT TERM
 
 say() { printf 'repose: %s\n' "$*" >&2; }
 
-# step TEXT COMMAND...  says what is done; shows what the command printed only when it fails.
+# step TEXT COMMAND...  prints TEXT; shows the command's output only if it fails.
 step() {
   say "$1"
   shift
@@ -115,7 +115,7 @@ else
 fi
 
 cd -- "$root"
-# What package-lock.json names, and nothing else: npm compares hashes. No package's scripts are run.
+# Exactly the packages in package-lock.json: npm compares hashes. No package's scripts are run.
 for folder in $node_packages; do
   [ "$folder/node_modules/.package-lock.json" -nt "$folder/package-lock.json" ] && continue
   step "fetching the packages of $folder/package-lock.json" \
@@ -123,10 +123,10 @@ for folder in $node_packages; do
   touch -- "$folder/node_modules/.package-lock.json"
 done
 build=build/$preset
-# Once configured, Ninja itself sees when CMake must run again, but for tests that were not asked for
+# Once configured, Ninja itself notices when CMake must run again, except for tests not requested
 # before, for a change in the presets, and for packages that were missing. The last two need a fresh
-# start: CMake forgets the presets' settings with another compiler, and does not look again for what
-# it looked for in vain.
+# start: CMake forgets the presets' settings if the compiler changes, and does not search again for what
+# it did not find.
 fresh=
 [ -z "$installed" ] && [ "$build/build.ninja" -nt CMakePresets.json ] || fresh=--fresh
 is_built_with_tests() { grep -q '^REPOSE_TESTS:BOOL=ON' "$build/CMakeCache.txt" 2>/dev/null; }
@@ -137,7 +137,7 @@ fi
 if [ $# -gt 0 ]; then set -- --target "$@"; fi
 first_time=
 [ -e "$build/.ninja_log" ] || first_time=" (this takes some minutes the first time)"
-# As many compilers as there are cores, and 2 GB for each.
+# One compiler per core, as far as there are 2 GB of memory for each.
 jobs=$(awk -v cores="$(nproc)" '/^MemAvailable/ { most = int($2 / 2e6) }
   END { print most < 1 ? 1 : most < cores ? most : cores }' /proc/meminfo)
 # -k 0: a failing build names every error, not only the first.

@@ -1,21 +1,21 @@
-# How every target below the including folder is compiled. Nothing of it reaches a project that uses
+# Compile options for every target below the including folder. None of them reach projects that use
 # the installed package.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
-# a*b + c is rounded twice, also where the machine could fuse it into one instruction: the same
+# a*b + c is rounded twice, even if the machine could fuse it into one instruction, so that the same
 # picture gives the same bytes on every machine and with every compiler.
 add_compile_options(-ffp-contract=off)
 
-# Presets for developers turn these into errors. -Wfloat-conversion: a pixel position silently cut to
-# an int is a wrong angle. (All of -Wconversion objects to how OpenCV assigns its expressions.)
+# Developer presets turn these into errors. -Wfloat-conversion: a pixel position silently truncated to
+# an int gives a wrong angle. (-Wconversion as a whole objects to how OpenCV assigns its expressions.)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wfloat-conversion -Wnon-virtual-dtor)
-# Of two sources compiled as one, a function of one that hides the other's leaves that unused.
+# If two sources compiled as one define the same function, one hides the other, which is then unused.
 add_compile_options(-Werror=unused-function)
 if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
-  # In the standard library's own stable_sort.
+  # For the standard library's own stable_sort.
   add_compile_options(-Wno-deprecated-declarations)
 endif()
 

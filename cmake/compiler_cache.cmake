@@ -1,6 +1,6 @@
-# Compiles through ccache where it is installed. Paths count from the project's top, so that clones
-# of it share what one of them has compiled, and precompiled headers are looked into. (Clang's hold
-# paths of their own: with them clones share nothing.)
+# Compiles through ccache if it is installed. Paths are relative to the project's root, so that clones
+# share what one of them has compiled, and the contents of precompiled headers are hashed. (Clang's
+# contain absolute paths: with them, clones share nothing.)
 
 find_program(REPOSE_CCACHE ccache)
 if(REPOSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -1,7 +1,7 @@
 # `cpack --config build/release/CPackConfig.cmake -B FOLDER`: a Debian package of the program with its
-# manual pages, completions and documents. What it depends on is read from the program itself.
+# manual pages, completions and documents. Its dependencies are read from the program itself.
 
-# What is packed is what was built: cpack does not build the tests first.
+# Packs what has been built, so that cpack does not build the tests first.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME repose)
@@ -17,6 +17,6 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME repose)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Opened while it runs: the letters of overlays.
+# Opened at run time: the font of overlays.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
 include(CPack)

@@ -2,19 +2,20 @@
 #
 #   repose_embed(repose_calibrate repose::calibrate::templates templates/deck.tpl templates/page.css)
 #
-# defines there, for a header of the module's own to declare,
+# defines there, to be declared in a header of the module,
 #
 #   namespace repose::calibrate::templates {
 #   std::string_view embedded_file(std::string_view name);
 #   }
 #
-# which gives a file's bytes by its name as written above, relative to the folder of the
-# CMakeLists.txt (of an absolute one, as of a file that is made, by its last part), and throws std::out_of_range for a name that is not there. The bytes stay until the
-# program ends and are followed by a NUL. A changed file is taken in by the next build.
+# which returns a file's bytes by its name as written above, relative to the folder of the
+# CMakeLists.txt (for an absolute path, such as a generated file's, by its last part), and throws
+# std::out_of_range for an unknown name. The bytes stay valid until the program ends and are followed by
+# a NUL. The next build includes a changed file.
 #
-# The assembler takes the bytes in: arrays of megabytes are slow to compile in C++.
+# The assembler includes the bytes: arrays of megabytes are slow to compile in C++.
 #
-# The same file is the script that writes the source while building:
+# This file is also the script that writes the source during the build:
 #   cmake -D OUTPUT=FILE.cpp -D NAMESPACE=N -D FOLDER=F "-DNAMES=a|b" -P embed.cmake
 
 function(repose_embed target namespace)
@@ -22,7 +23,7 @@ function(repose_embed target namespace)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded/${stem}.cpp)
   list(JOIN ARGN "|" names)
   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE files)
-  list(TRANSFORM files REPLACE "^.+//" "/")  # absolute as they were
+  list(TRANSFORM files REPLACE "^.+//" "/")  # absolute paths as given
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -D OUTPUT=${output} -D NAMESPACE=${namespace}
       -D FOLDER=${CMAKE_CURRENT_SOURCE_DIR} "-DNAMES=${names}"
@@ -30,7 +31,7 @@ function(repose_embed target namespace)
     DEPENDS ${files} ${CMAKE_CURRENT_FUNCTION_LIST_FILE}
     COMMENT "Embedding files as ${namespace}"
     VERBATIM)
-  # On its own: what is generated for a library waits for all libraries that it links.
+  # In its own target: files generated for a library wait for all libraries that it links.
   add_library(${stem} OBJECT ${output})
   target_sources(${target} PRIVATE $<TARGET_OBJECTS:${stem}>)
 endfunction()
@@ -43,7 +44,7 @@ function(repose_write_embedded)
   set(number 0)
   foreach(name IN LISTS names)
     set(symbol ${stem}_${number})
-    # A changed file changes this source: caches of compiled objects do not look into .incbin.
+    # The hash makes a changed file change this source: compiler caches do not look into .incbin.
     set(file ${FOLDER}/${name})
     if(IS_ABSOLUTE ${name})
       set(file ${name})

@@ -1,13 +1,13 @@
 # `cmake --install`: the program, the libraries with their public headers, and a CMake package:
-# find_package(repose COMPONENTS vision) gives the target repose::vision and needs no more than the
-# libraries that vision links; likewise dem, render and calibrate. Without COMPONENTS it gives all.
+# find_package(repose COMPONENTS vision) provides the target repose::vision and needs only the
+# libraries that vision links; likewise dem, render and calibrate. Without COMPONENTS it provides all.
 
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/repose)
 
-# Users write <repose/measure.h> or <repose/vision/picture/picture.h>. The headers name each other
-# without "repose/", which install_headers.cmake puts before: include/repose itself is on nobody's path.
+# Users include <repose/measure.h> or <repose/vision/picture/picture.h>. The headers include each other
+# without "repose/", which install_headers.cmake prepends: include/repose itself is not an include path.
 file(GLOB public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/facade/*.h)
 foreach(module base vision dem render calibrate)
   get_target_property(headers repose_${module} HEADER_SET)
@@ -26,7 +26,7 @@ foreach(module base vision dem render calibrate)
   install(EXPORT repose_${module}
     NAMESPACE repose:: DESTINATION ${package_folder} FILE repose_${module}.cmake)
 endforeach()
-# The component "program" is what a package for users has.
+# The component "program" is the content of a package for users.
 install(TARGETS repose_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

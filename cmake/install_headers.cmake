@@ -1,5 +1,6 @@
 # Installs the public headers as <repose/...>, those of the facade without their folder. Run by
-# `cmake --install` with source, the project's folder; headers, in it; folder, include or where it is.
+# `cmake --install` with these variables: source, the project's folder; headers, files in it; folder,
+# the include folder below the prefix.
 
 foreach(header IN LISTS headers)
   file(RELATIVE_PATH name ${source} ${header})

@@ -1,5 +1,5 @@
-# Makes the target MPI::MPI_CXX where programs for MPI can be compiled, and says so where not. An MPI
-# that is there to run programs alone, without its headers, makes CMake's own search stop in error.
+# Provides the target MPI::MPI_CXX if MPI programs can be compiled; otherwise prints a message. An MPI
+# installed only to run programs, without headers, makes CMake's own search fail with an error.
 
 function(repose_can_compile_mpi result)
   set(${result} NO PARENT_SCOPE)

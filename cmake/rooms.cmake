@@ -1,13 +1,13 @@
-# A module is a static library, made up of rooms: folders, each of which names the rooms that it may
-# include. tests/layers holds it to that.
+# A module is a static library made up of rooms: folders, each of which lists the rooms that it may
+# include. tests/layers enforces this.
 #
 #   repose_add_module(vision)
 #   repose_add_room(vision/measure USES base vision/picture LIBRARIES Ceres::ceres)
 #
-# repose_add_module makes repose_MODULE, which users of the installed package know as repose::MODULE.
-# repose_add_room adds to it all .cpp files of one folder but those after WITHOUT, and the LIBRARIES
-# that they need. USES names rooms, or modules all of whose rooms may be used. Where sources are compiled
-# as few (CMAKE_UNITY_BUILD), those of a room are one.
+# repose_add_module creates repose_MODULE, called repose::MODULE in the installed package.
+# repose_add_room adds all .cpp files of one folder to it, except those listed after WITHOUT, and the
+# LIBRARIES that they need. USES lists rooms, or modules all of whose rooms may be used. In unity builds
+# (CMAKE_UNITY_BUILD), the sources of a room are compiled as one.
 
 function(repose_add_module module)
   add_library(repose_${module} STATIC)
@@ -32,7 +32,7 @@ function(repose_add_room room)
   target_link_libraries(repose_${module} PRIVATE ${given_LIBRARIES})
 endfunction()
 
-# Writes what rooms may use, a line each: for tests/layers.
+# Writes what each room may use, one line per room, for tests/layers.
 function(repose_write_rooms file)
   get_property(rooms GLOBAL PROPERTY repose_rooms)
   list(JOIN rooms "\n" text)

@@ -1,7 +1,7 @@
-# REPOSE_VERSION: the version that the program tells and that packages have. In a clone it comes from
-# the repository, as it stands when CMake configures: 0.2.0 at the tag v0.2.0, 0.2.0+3.g1a2b3c4 three
-# commits later, and without any tag the project's version with the commit, 0.1.0+g1a2b3c4. In an
-# unpacked archive, and without git, it is the project's version alone.
+# REPOSE_VERSION: the version of the program and of packages. In a clone it is read from the repository
+# when CMake configures: 0.2.0 at the tag v0.2.0, 0.2.0+3.g1a2b3c4 three commits later, and without any
+# tag the project's version with the commit, 0.1.0+g1a2b3c4. In an unpacked archive, or without git, it
+# is the project's version alone.
 
 function(repose_describe_version described version result)
   if(described MATCHES "^v([0-9]+\\.[0-9]+\\.[0-9]+)-0-g")
@@ -17,7 +17,7 @@ endfunction()
 
 set(repose_described "")
 find_program(REPOSE_GIT git)
-# Not the repository of another project that this one was unpacked into.
+# Ignores the repository of another project that this one may have been unpacked into.
 if(REPOSE_GIT AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
   execute_process(COMMAND ${REPOSE_GIT} describe --tags --long --always --match "v[0-9]*"
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}

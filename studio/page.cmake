@@ -1,5 +1,5 @@
-# The page's script, of the sources in page/src: checked and joined to one file by what
-# page/package-lock.json names.
+# The page's script, bundled into one file from the sources in page/src with the packages of
+# page/package-lock.json.
 
 find_program(REPOSE_NODE_FOR_PAGE NAMES node nodejs REQUIRED)
 set(page ${CMAKE_CURRENT_SOURCE_DIR}/page)

@@ -1,5 +1,5 @@
-# The test `format`: all sources are laid out as .clang-format says. Versions of clang-format differ
-# in what they make of it, so only the one we use is asked.
+# The test `format`: all sources are formatted according to .clang-format. Versions of clang-format
+# differ in their results, so only the one we use will do.
 
 find_program(CLANG_FORMAT clang-format-14)
 if(NOT CLANG_FORMAT)

@@ -1,5 +1,5 @@
-# The tests `package_install` and `package`: what is installed is enough for an outside project
-# (tests/package) to find, compile with, link and run.
+# The tests `package_install` and `package`: the installed files are enough for an external project
+# (tests/package) to find the package, compile, link and run.
 
 set(prefix ${CMAKE_CURRENT_BINARY_DIR}/package/prefix)
 
@@ -21,7 +21,7 @@ add_test(NAME package
     --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
 set_tests_properties(package PROPERTIES FIXTURES_REQUIRED installed_package LABELS package)
 
-# The version from the repository, and the Debian package that has it.
+# The version from the repository, and the Debian package with that version.
 add_test(NAME version COMMAND ${CMAKE_COMMAND} -P ${CMAKE_CURRENT_SOURCE_DIR}/version.cmake)
 add_test(NAME package_deb
   COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/package/make_deb ${CMAKE_CPACK_COMMAND}

@@ -1,10 +1,10 @@
-# repose_register_files(TARGET LABEL) makes every source of a GoogleTest program one test of ctest, named
-# after it, such as vision/board_pose: its tests share what is costly to prepare, and programs that draw
-# in OpenCV take longer to start than most tests. Those of the kinds below are others:
-# vision/film_angle/statistics.
+# repose_register_files(TARGET LABEL) makes every source of a GoogleTest program one ctest test, named
+# after it, such as vision/board_pose: its tests share costly preparation, and programs that draw with
+# OpenCV take longer to start than most tests run. Suites of the kinds below become separate tests, such
+# as vision/film_angle/statistics.
 #
-# The same file is the script that ctest runs, once it has read PROGRAM, LABEL and LISTING: tests are listed
-# then, not while building, so that a busy machine cannot break the build.
+# This file is also the script that ctest runs with PROGRAM, LABEL and LISTING set: tests are listed
+# then, not during the build, so that a busy machine cannot break the build.
 
 function(repose_register_files target label)
   set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_files.cmake)
@@ -16,19 +16,20 @@ include([[${CMAKE_CURRENT_FUNCTION_LIST_FILE}]])
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
 endfunction()
 
-# Suites that run code which others run as well, often or for long, to see how nearly right its numbers
-# are: they have the label `statistics` too, and are left out where each run takes ten times as long.
+# Suites that run code covered by others many times or for long, to see how accurate its numbers are:
+# they also have the label `statistics`, and are left out when everything runs ten times slower.
 set(statistics "^(vision/(ComparePictures|Conditions/.*|FilmAngleAccuracy|HeapPicture|LensFitAccuracy|Likeness|\
 OtherPictures|Scenes/.*)|calibrate/(DrawDownFront|IntervalLimit|JointFit(OfTheBench)?|Narrowing|PositionAngle(/Cone)?|Propose|\
 SimulatorVersion|StifferCoefficients|MovedCoefficients)|dem/(DrawDowns|FillAccuracy|FilledTubes|HeapOfManySizes|LongTimestep|\
 NeighbourList|RollOnGrains|RollTimestep|RoughDeadGrains|TiltOnGrains)|physics/Verify/Physics)$")
-# Suites that start, kill and restart whole programs, each of which other suites run as well: they have
-# the label `processes`, and are left out there too.
+# Suites that start, kill and restart whole programs, which other suites run as well: they have the
+# label `processes`, and are left out then, too.
 set(processes "^cli/(CalibrateKilled|CalibrateRanks|CalibrateSheets|EngineKilled|Folders|OutputsOf|SimulateRestart)$")
-# Suites that compare what different numbers of threads give: `threads`. Races are the thread sanitizer's.
+# Suites that compare results of different numbers of threads: label `threads`. Races are left to the
+# thread sanitizer.
 set(threads "Threads$")
 
-# Sets `kind` in the caller to that of a suite, "" for most.
+# Sets `kind` in the caller to the kind of a suite; "" for most.
 function(find_kind suite)
   set(found "")
   foreach(kind statistics processes threads)
@@ -39,12 +40,12 @@ function(find_kind suite)
   set(kind "${found}" PARENT_SCOPE)
 endfunction()
 
-# One test of ctest. It is skipped where no test passed and the list of those skipped ends what is
-# said: where one failed a list of those would follow.
+# Adds one ctest test. It counts as skipped if no test passed and the output ends with the list of
+# skipped tests: after a failure, a list of failed tests would follow.
 function(add_file name kind tests)
-  # Seconds: what takes long is started early, so that none is left to end alone.
+  # Seconds: long tests are started early, so that none is left running alone at the end.
   set(cost 0)
-  if(LABEL STREQUAL "peers")  # minutes, where the other programs are installed
+  if(LABEL STREQUAL "peers")  # minutes, if the other programs are installed
     set(cost 20)
   elseif(kind)
     set(cost 10)
@@ -64,7 +65,7 @@ if(PROGRAM)
   if(NOT result EQUAL 0)
     message(FATAL_ERROR "${PROGRAM} does not list its tests: ${result}")
   endif()
-  # A suite's name is less indented than its tests'; a test's file follows its name.
+  # A suite's name is indented less than its tests' names; a test's file follows its name.
   file(STRINGS ${LISTING} lines REGEX "\"(name|file)\":")
   set(names "")
   foreach(line IN LISTS lines)

@@ -1,4 +1,4 @@
-# cmake -P version.cmake: the version that a description of the repository gives.
+# cmake -P version.cmake: tests the version derived from a description of the repository.
 set(PROJECT_VERSION 0.1.0)
 set(PROJECT_SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR}/none)
 include(${CMAKE_CURRENT_LIST_DIR}/../cmake/version.cmake)

@@ -1,5 +1,5 @@
-# What draws the charts of a report is not in this repository: package.json names it,
-# package-lock.json holds its hash, and `npm ci` fetches it and refuses anything else.
+# The library that draws a report's charts is not in this repository: package.json names it,
+# package-lock.json has its hash, and `npm ci` fetches it and refuses anything else.
 
 file(READ ${CMAKE_CURRENT_SOURCE_DIR}/report/package.json package)
 string(JSON wanted GET "${package}" dependencies plotly.js-dist-min)
@@ -15,7 +15,7 @@ if(NOT found STREQUAL wanted OR NOT EXISTS ${modules}/plotly.js-dist-min/plotly.
     "Fix: run ./setup.sh, or with npm installed\n"
     "  npm ci --ignore-scripts --prefix ${CMAKE_CURRENT_SOURCE_DIR}/report")
 endif()
-# Packed: pages are sent by e-mail. page/inflate.js unpacks it.
+# Compressed, since pages are sent by e-mail. page/inflate.js decompresses it.
 set(REPOSE_PLOTLY ${CMAKE_CURRENT_BINARY_DIR}/report/plotly.min.js.gz)
 set(plotly ${modules}/plotly.js-dist-min/plotly.min.js)
 if(${plotly} IS_NEWER_THAN ${REPOSE_PLOTLY})

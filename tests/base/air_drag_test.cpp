@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGravity = 9.80665;
 
-// The standard curve of spheres, by Lapple and Shepherd (1940), Ind. Eng. Chem. 32, 605, table II.
+// The standard curve for spheres, by Lapple and Shepherd (1940), Ind. Eng. Chem. 32, 605, table II.
 TEST(AirDrag, OfSpheresIsThatOfTheStandardCurve) {
   for (const auto& [reynolds, coefficient] :
        {std::pair{.1, 244.}, std::pair{1., 26.5}, std::pair{10., 4.1}, std::pair{100., 1.07},
@@ -22,9 +22,9 @@ TEST(AirDrag, OfSpheresIsThatOfTheStandardCurve) {
   }
 }
 
-// Cubes, sphericity .806, fall with some 1.2 at Reynolds numbers of 1000 (Pettyjohn and
-// Christiansen 1948, Chem. Eng. Prog. 44, 157: settling factors of isometric particles, from whose
-// tables K2 = 5.31 - 4.88 phi = 1.38 in Newton's range).
+// Cubes, sphericity .806, have a coefficient of about 1.2 at a Reynolds number of 1000 (Pettyjohn
+// and Christiansen 1948, Chem. Eng. Prog. 44, 157: settling factors of isometric particles, from
+// whose tables K2 = 5.31 - 4.88 phi = 1.38 in Newton's range).
 TEST(AirDrag, OfOtherGrainsGrowsAsTheyAreLessRound) {
   EXPECT_NEAR(drag_coefficient(2000, .806), 1.3, .25);
   EXPECT_GT(drag_coefficient(1000, .9), 1.2 * drag_coefficient(1000, 1));
@@ -32,7 +32,7 @@ TEST(AirDrag, OfOtherGrainsGrowsAsTheyAreLessRound) {
               .01 * drag_coefficient(100, 1));
 }
 
-// v = (q - p) g d^2 / (18 eta), whatever the height.
+// v = (q - p) g d^2 / (18 eta), independent of the height.
 TEST(AirDrag, LetsDustFallAsStokesSays) {
   const FallingGrain dust{.diameter_m = 1e-5, .density_kg_m3 = 1000};
   const double stokes = (1000 - 1.204) * kGravity * 1e-10 / (18 * 1.82e-5);
@@ -57,7 +57,7 @@ TEST(AirDrag, LeavesHeavyBallsAlone) {
   EXPECT_EQ(rise_without_air_m(steel, .5, 0), 0);
 }
 
-// Rapeseeds of e = .5 that fall 500 mm rise to .458^2 of it by an integration made elsewhere.
+// Rapeseeds of e = .5 that fall 500 mm rise to .458^2 of it, by an independent integration.
 TEST(AirDrag, IsTakenOutOfRapeseedsRebounds) {
   const FallingGrain seed{.diameter_m = .002, .density_kg_m3 = 1100};
   EXPECT_NEAR(std::sqrt(rise_without_air_m(seed, .5, .458 * .458 * .5) / .5), .5, 5e-4);

@@ -65,7 +65,7 @@ TEST_F(ChildProcessTest, LastLinesAreFewAndFitATerminal) {
   EXPECT_TRUE(last_lines(folder_.path() / "none", 3).empty());
 }
 
-/// What a program starts ends with it, whether it ends or is ended.
+/// A program's children end with it, whether it exits or is killed.
 TEST_F(ChildProcessTest, EndsWithAllThatItStarted) {
   constexpr auto kPatience = std::chrono::seconds(20);
   const auto is_free_soon = [&] {
@@ -86,7 +86,7 @@ TEST_F(ChildProcessTest, EndsWithAllThatItStarted) {
   }
   EXPECT_TRUE(is_free_soon());
   {
-    // In a session of its own, and of a parent that has gone.
+    // In its own session, and with a parent that has exited.
     const ChildProcess process(shell("setsid sleep 300 & (setsid sleep 300 &); sleep 300"));
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }

@@ -63,7 +63,7 @@ TEST_F(FileSet, AnInterruptedWritingCanBeRepeated) {
   write({{"a.py", "first"}});
   const std::string first = text(".repose-files");
   write({{"a.py", "second"}});
-  // Killed before the file was replaced: the list already has both.
+  // Killed before the file was replaced: the list already contains both.
   folder_.write(".repose-files", first + text(".repose-files"));
   folder_.write("a.py", std::string("first"));
   write({{"a.py", "third"}});

@@ -76,7 +76,7 @@ TEST(PlyFile, EveryBeginningOfAFileIsRefused) {
   for (std::size_t size = 0; size < binary.size(); ++size) {
     EXPECT_NE(error(binary.substr(0, size)), "") << size;
   }
-  for (std::size_t size = 0; size + 2 < text.size(); ++size) {  // the last digit may go unseen
+  for (std::size_t size = 0; size + 2 < text.size(); ++size) {  // the last digit may go unnoticed
     EXPECT_NE(error(text.substr(0, size)), "") << size;
   }
 }

@@ -13,13 +13,13 @@
 
 namespace {
 
-/// What is looked at whenever something is flushed to the disk.
+/// The file that is read whenever something is flushed to disk.
 std::filesystem::path watched;                  // NOLINT(cert-err58-cpp)
 std::vector<std::string> content_when_flushed;  // NOLINT(cert-err58-cpp)
 
 }  // namespace
 
-/// Stands before that of the C library.
+/// Overrides that of the C library.
 // NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): theirs is reserved
 extern "C" int fsync(int descriptor) {
   if (!watched.empty()) content_when_flushed.push_back(repose::testing::text_of(watched));

@@ -25,7 +25,7 @@ std::optional<double> degrees(std::optional<double> angle_rad) {
   return *angle_rad * 180 / std::numbers::pi;
 }
 
-/// In a table's cell, so without quotation marks.
+/// For a table cell, so without double quotes.
 std::string codes_of(const vision::ReposeAngle& measured) {
   std::string codes;
   if (measured.status == MeasureStatus::refused) {

@@ -17,7 +17,7 @@ struct SideErrors {
   std::optional<double> uncertainty_deg;
 
   std::optional<double> error_deg() const;
-  /// Whether the interval holds the truth.
+  /// Whether the interval contains the truth.
   std::optional<bool> covered() const;
 };
 
@@ -38,8 +38,8 @@ struct Row {
 /// The methods that are compared: "auto", "paper", "script".
 std::span<const std::string_view> methods();
 
-/// Takes the picture and measures it with each method; with a folder, writes overlays of what was
-/// measured there. The rows point to the subject.
+/// Takes the picture and measures it with each method; if a folder is given, writes overlays of the
+/// measurements to it. The rows point to the subject.
 std::vector<Row> measure_rows(const Subject& subject,
                               std::span<const std::string_view> with_methods,
                               const std::string& overlay_folder = "");

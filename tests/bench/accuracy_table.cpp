@@ -16,7 +16,7 @@ namespace {
 using testing::Group;
 using vision::MeasureStatus;
 
-/// An ok number farther from the truth than this is a lie nobody was warned of.
+/// A result of status ok with a larger error than this is a silent error.
 constexpr double kSilentError_deg = 2;
 
 struct Sample {
@@ -47,8 +47,8 @@ struct Summary {
   Sample half_widths;
   Sample flank_errors;
   Share flank_covered;
-  int missing_flanks = 0;   ///< exist, not measured, in pictures that were not refused
-  int invented_flanks = 0;  ///< measured, do not exist
+  int missing_flanks = 0;   ///< exist but not measured, in pictures that were not refused
+  int invented_flanks = 0;  ///< measured but do not exist
   int refused = 0;
   int flagged = 0;
   int silent = 0;
@@ -146,7 +146,7 @@ std::string signed_mean(const std::vector<double>& values) {
   return fmt::format("{:+.2f}", sum / static_cast<double>(values.size()));
 }
 
-/// What the camera does to an angle, and what measuring does.
+/// Errors of an angle caused by the camera and by the measurement.
 struct Bias {
   std::string_view condition;
   std::vector<double> of_camera_deg = {};

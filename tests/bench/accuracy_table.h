@@ -7,14 +7,14 @@
 
 namespace repose::bench {
 
-/// The tables of one section and method. One line per condition of the group, then their total.
+/// The table of one section and method. One line per condition of the group, then their total.
 std::string group_table(std::span<const Row> rows, testing::Group group);
 
-/// How many of the pictures without an angle were refused.
+/// How many of the pictures without an angle of repose were refused.
 std::string refusal_table(std::span<const Row> rows);
 
-/// Mean errors with their signs where the picture's outline has another angle than the heap: how
-/// much of them is in the picture, and how much the measurement adds.
+/// Signed mean errors for pictures whose outline has a different angle from the heap's: how much
+/// comes from the picture and how much from the measurement.
 std::string bias_table(std::span<const Row> rows);
 
 }  // namespace repose::bench

@@ -15,7 +15,7 @@
 namespace repose::bench {
 namespace {
 
-/// Grain steps a second, of each run: by the clock and by CPU time.
+/// Grain steps per second of each run, by wall clock and by CPU time.
 struct Rates {
   std::vector<double> elapsed;
   std::vector<double> cpu;

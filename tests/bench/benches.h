@@ -4,7 +4,7 @@
 
 namespace repose::bench {
 
-/// Each adds a command of its name, with its options.
+/// Each adds the command of the same name, with its options.
 void add_against_liggghts(CLI::App& bench);
 void add_board_accuracy(CLI::App& bench);
 void add_draw_heap(CLI::App& bench);

@@ -1,5 +1,5 @@
-// How near lens, pitch, scale and sizes come that are taken from pictures of a printed board, and
-// how often their intervals hold the truth.
+// Accuracy of lens, pitch, scale and sizes measured from pictures of a printed board, and how often
+// their intervals contain the truth.
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ std::optional<Estimate> estimate_of(const vision::LensNumber& number) {
   return Estimate{number.value, number.uncertainty};
 }
 
-/// The largest distance between where the lens and its fit have the places of a grid, px.
+/// The largest distance between a grid's points under the true lens and under its fit, px.
 double largest_shift_px(const testing::BoardCamera& camera, const vision::Lens& lens) {
   double largest = 0;
   for (int i = 0; i <= 10; ++i) {
@@ -78,7 +78,7 @@ double largest_shift_px(const testing::BoardCamera& camera, const vision::Lens& 
       const vision::Point seen{camera.width * i / 10.0, camera.height * j / 10.0};
       const auto truth = camera.direction(seen);
       const vision::Point corrected = lens.corrected(seen);
-      // Both without distortion; the fit's own centre and focal length are judged apart.
+      // Both without distortion; the fit's own centre and focal length are judged separately.
       const double x = truth.x() * lens.focal_px.value + lens.centre_x_px.value - corrected.x;
       const double y = truth.y() * lens.focal_px.value + lens.centre_y_px.value - corrected.y;
       largest = std::max(largest, std::hypot(x, y));
@@ -111,7 +111,7 @@ void measure_lenses(int count, int pictures, std::uint64_t first) {
     x.add(estimate_of(fit.lens.centre_x_px), camera.centre_x_px, 1);
     y.add(estimate_of(fit.lens.centre_y_px), camera.centre_y_px, 1);
     const double side = .5 * camera.width / camera.focal_px;
-    // With k2 it shares what it does: judged alone where both sides have it alone.
+    // k1 and k2 trade off: k1 is judged only if neither side has k2.
     if (camera.k2 == 0 && fit.lens.k2.value == 0) {
       k1.add(estimate_of(fit.lens.k1), camera.k1, .01 / (side * side));
     }
@@ -132,7 +132,7 @@ void measure_lenses(int count, int pictures, std::uint64_t first) {
       median(shifts), *std::max_element(shifts.begin(), shifts.end()), median(errors));
 }
 
-/// The lens as its fit would give it: known to half a percent.
+/// The lens as a fit would give it: known to half a percent.
 vision::Lens lens_of(const testing::BoardCamera& camera) {
   return {.width = camera.width,
           .height = camera.height,
@@ -150,7 +150,7 @@ vision::Lens lens_of(const testing::BoardCamera& camera) {
 struct Way {
   const char* name = "";
   bool has_lens = true;
-  bool has_bar = false;  ///< two points instead of the board, and the pitch told
+  bool has_bar = false;  ///< two points instead of the board, and a given pitch
 };
 
 vision::SizedHeap measured(const HeapWithBoard& heap, const Way& way) {

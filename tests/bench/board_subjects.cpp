@@ -22,7 +22,7 @@ using testing::BoardCamera;
 using testing::radians;
 using testing::Random;
 
-/// Nuts make heaps of a metre; the world is drawn smaller, so that a board of A4 suits it.
+/// Nuts make heaps of a metre; the scene is scaled down to suit an A4 board.
 constexpr double kMm_per_m = 250;
 
 render::PhotoStyle photo_style(Random& random) {
@@ -51,7 +51,7 @@ vision::Picture drawn(const render::Scene& scene, const render::Camera& camera,
   return renderer.draw(scene, camera, kPhotograph, style).picture;
 }
 
-/// Height of the lightly smoothed outline and its width, as the measurement defines them.
+/// Height and width of the lightly smoothed outline, as the measurement defines them.
 void set_sizes(const render::Scene& scene, HeapWithBoard& heap) {
   const render::Truth truth =
       truth_of(scene, render::OrthographicCamera{}, kPhotograph, render::Shown::mesh);
@@ -69,7 +69,7 @@ void set_sizes(const render::Scene& scene, HeapWithBoard& heap) {
   heap.angle_rad = std::atan2(heap.height_mm, heap.base_mm / 2);
 }
 
-/// Puts a camera with a lens before the heap, which stands beside the picture's middle.
+/// Puts a camera with a lens in front of the heap, which stands beside the picture's middle.
 render::PerspectiveCamera camera_before(const render::Scene& scene, double radius_m, double side,
                                         HeapWithBoard& heap, Random& random) {
   const double distance_m = radius_m * random.uniform(6, 11);
@@ -97,7 +97,7 @@ render::PerspectiveCamera camera_before(const render::Scene& scene, double radiu
   return camera;
 }
 
-/// What the camera sees of the heap, exactly.
+/// Sets the exact values of what the camera sees of the heap.
 void set_views(const Eigen::Matrix3d& view, const Vector3d& eye_mm, HeapWithBoard& heap) {
   heap.mm_per_px = (view * -eye_mm).z() / heap.camera.focal_px;
   const auto seen = [&](double aside_mm) {
@@ -107,13 +107,13 @@ void set_views(const Eigen::Matrix3d& view, const Vector3d& eye_mm, HeapWithBoar
   heap.bar = {.line = {seen(-half_mm), seen(half_mm)}, .length_mm = 2 * half_mm};
 }
 
-/// Where people put the board: upright, in the plane of the heap's middle, with its foot on the
-/// ground, all within what they see.
+/// The board as people place it: upright, in the plane of the heap's middle, with its foot on the
+/// ground, all within what they can see.
 testing::BoardPlace board_beside(const Eigen::Matrix3d& view, const Vector3d& eye_mm,
                                  double beside_mm, const HeapWithBoard& heap, Random& random) {
   const double printed_mm = heap.square_mm * random.normal(1, .0025);
   const double really_behind_mm = heap.board_offset_mm + random.normal(0, 5);
-  // Board and heap stand in a plane that does not quite face the camera, nor the board it.
+  // The plane of board and heap does not quite face the camera, and the board is not quite in it.
   const double plane_rad = heap.board_offset_mm > 0 ? 0 : radians(random.uniform(-8, 8));
   const auto upright = testing::placed_board(
       Vector3d::Zero(), plane_rad + radians(random.normal(0, 1.5)), radians(random.normal(0, .5)),
@@ -154,7 +154,7 @@ std::vector<vision::BoardPicture> board_pictures(const BoardCamera& camera, int 
   Random random(seed * 0x9E3779B97F4A7C15 ^ testing::hash_of("boards"));
   std::vector<vision::BoardPicture> pictures;
   for (int i = 0; i < count; ++i) {
-    // As large as half of the picture, its middle anywhere that leaves it inside, mostly.
+    // About half as wide as the picture, its middle anywhere that mostly keeps it inside.
     const double distance_mm = camera.focal_px / camera.width * random.uniform(420, 600);
     const vision::Point middle{camera.width * random.uniform(.28, .72),
                                camera.height * random.uniform(.3, .7)};

@@ -31,7 +31,7 @@ void spheres(benchmark::State& state) {
                                              static_cast<int>(state.range(1))));
 }
 
-/// Counter `speed_up`: one thread's time / two threads' time on the same packing, turn about.
+/// Counter `speed_up`: one thread's time / two threads' time on the same packing, run alternately.
 void two_threads(benchmark::State& state) {
   const auto grains = static_cast<int>(state.range(0));
   auto one = testing::box_of_spheres(grains, 1);

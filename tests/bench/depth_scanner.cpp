@@ -34,7 +34,7 @@ std::vector<Ball> balls_of(const render::Scene& scene) {
   return balls;
 }
 
-/// Half of the square that holds all of the heap, with as much ground again around it.
+/// Radius within which 98 % of the spheres lie. Callers add the ground around it.
 double reach_of(const std::vector<Ball>& balls) {
   std::vector<double> reaches;
   for (const Ball& ball : balls) reaches.push_back(ball.centre.head<2>().norm() + ball.radius);
@@ -60,7 +60,7 @@ struct Stand {
   Vector ray(double x, double y) const { return axes * Vector(x / focal_px, y / focal_px, 1); }
 };
 
-/// Where the ray meets the ball first, in lengths of the ray.
+/// Where the ray first meets the ball, in lengths of the ray.
 double meeting(const Vector& eye, const Vector& ray, const Ball& ball) {
   const Vector from = eye - ball.centre;
   const double a = ray.squaredNorm(), b = from.dot(ray);

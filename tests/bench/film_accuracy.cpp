@@ -1,5 +1,5 @@
-// How near the angle comes that repose measure takes out of a drawn film, beside that of a single
-// frame of the same film.
+// Accuracy of the angle that repose measure gets from a drawn film, compared with that from a
+// single frame of the same film.
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ struct HeapFilmRow {
   vision::ReposeAngle frame;
 };
 
-/// Every second one flickers, every third ends with a hand, every fourth has a timer.
+/// Every second film flickers, every third ends with a hand, every fourth has a timer.
 testing::DrawnHeapFilm random_film(std::uint64_t seed, double noise) {
   constexpr std::array kConditions = {"clean", "uneven_light", "texture", "shadow",
                                       "blur_noise_jpeg"};

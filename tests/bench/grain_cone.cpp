@@ -13,14 +13,14 @@ using testing::kNutWidth_m;
 using testing::Random;
 
 constexpr double kSpacing = .92;   // between neighbours / width
-constexpr double kLayer = .75;     // from a layer down to the next / width
+constexpr double kLayer = .75;     // from one layer down to the next / width
 constexpr int kLayers = 5;         // so that no line of sight meets the plate below
 constexpr double kDeepest = .4;    // how far a grain may lie below its layer / width
-constexpr double kSideways = .15;  // how far it may lie beside its place / width
+constexpr double kSideways = .15;  // how far it may be shifted sideways / width
 
 double peak_m(const GrainCone& cone) { return cone.grains_high * kNutWidth_m; }
 
-/// A cone with a rounded tip: the hyperbola whose asymptotes are the cone's sides, hollowed out.
+/// A cone with a rounded tip: a hyperbola with the cone's sides as asymptotes, made concave.
 double top_m(const GrainCone& cone, double r_m) {
   const double slope = std::tan(cone.angle_rad);
   const double lack_m = cone.crest * peak_m(cone);
@@ -29,7 +29,7 @@ double top_m(const GrainCone& cone, double r_m) {
   return peak_m(cone) * std::pow(std::max(0.0, straight_m / peak_m(cone)), cone.hollow);
 }
 
-/// How far it reaches in a direction / how far on average.
+/// The heap's radius in a direction / its mean radius.
 class Reach {
  public:
   Reach(double lopsided, Random& random)
@@ -47,7 +47,7 @@ class Reach {
   double oval_rad_;
 };
 
-/// Grains on the ground lie flat, so that none reaches into the plate.
+/// Grains on the ground lie flat, so that none penetrates the plate.
 dem::Quaternion flat(Random& random) {
   const Eigen::AngleAxisd yaw(random.uniform(0, 2 * std::numbers::pi), dem::Vector::UnitZ());
   const Eigen::AngleAxisd roll(random.uniform(0, 2 * std::numbers::pi), dem::Vector::UnitX());

@@ -6,21 +6,21 @@
 
 namespace repose::bench {
 
-/// A heap as grains make it that are let fall on one spot. Lengths in grains' widths.
+/// A heap as formed by grains dropped on one spot. Lengths in grain widths.
 struct GrainCone {
   double angle_rad = .45;
-  double hollow = 1;  ///< exponent on the cone's height / peak: above 1 its flanks are hollow
+  double hollow = 1;  ///< exponent on the cone's height / peak: > 1 makes concave flanks
   double grains_high = 20;
-  double crest = .15;     ///< height that the rounded tip lacks to the cone's / height
-  double lopsided = .04;  ///< how much farther it reaches on one side than on the other
+  double crest = .15;     ///< height lost by rounding the tip of the sharp cone / height
+  double lopsided = .04;  ///< relative amplitude of the base radius' variation
   std::uint64_t seed = 1;
 };
 
-/// Its base's radius without the lopsidedness, m.
+/// Radius of its base without the lopsidedness, m.
 double base_radius_m(const GrainCone& cone);
 
-/// Nuts on a plate, as many layers of them as can be seen into. No simulation made them: they are
-/// near each other as in a heap but do not touch as there.
+/// Nuts on a plate, in as many layers as are visible. Not simulated: they lie as close as in a
+/// heap but do not touch as in one.
 render::Scene scene_of(const GrainCone& cone);
 
 }  // namespace repose::bench

@@ -1,5 +1,5 @@
-// Do heaps of the exported decks for LIGGGHTS or YADE stand at the angle of our own? Same clump,
-// contact law, coefficients, stiffness and time step; each engine fills its tube in its own way.
+// Do heaps of the exported decks for LIGGGHTS or YADE have the same angle as our own? Same clump,
+// contact law, coefficients, stiffness and time step; each engine fills the tube in its own way.
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ Heap heap_of(const std::vector<dem::Envelope>& envelopes) {
           kMm * angle.base_radius_m.value()};
 }
 
-/// LIGGGHTS takes no others for seeds.
+/// LIGGGHTS requires prime seeds.
 int prime_from(int number) {
   const auto is_prime = [](int n) {
     for (int k = 2; k * k <= n; ++k) {
@@ -54,7 +54,7 @@ int prime_from(int number) {
   return number;
 }
 
-/// Rows of x, y, z and radius, below a head and after columns that are something else.
+/// Rows of x, y, z and radius, after `head` lines and `before` other columns.
 std::vector<dem::ClumpSphere> spheres_in(const std::filesystem::path& file, int head, int before) {
   std::ifstream in(file);
   std::string line;
@@ -98,7 +98,7 @@ void print_row(const std::string& name, const Heap& heap) {
   std::fflush(stdout);
 }
 
-/// Welch's interval of the difference of two means.
+/// Welch's interval for the difference of two means.
 void print_difference(const std::vector<double>& ours, const std::vector<double>& theirs,
                       const std::string& program) {
   const calibrate::Summary a = calibrate::summarise(ours), b = calibrate::summarise(theirs);

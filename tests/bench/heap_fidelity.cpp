@@ -1,5 +1,5 @@
-// What cheaper heaps are off by: the angle of repose of the same grain in the same tube with larger
-// grains, with other numbers of spheres and other stiffnesses, at several frictions between grains.
+// Errors of cheaper heaps: the angle of repose of the same grain in the same tube with larger
+// grains, other numbers of spheres and other stiffnesses, at several frictions between grains.
 
 #include <algorithm>
 #include <cstddef>
@@ -43,7 +43,7 @@ struct Wanted {
   std::string figure;
 };
 
-/// Of the grain and its contacts, beside the friction between grains.
+/// Settings of the grain and its contacts other than the friction between grains.
 struct Variant {
   double size = 1;
   std::optional<int> spheres;
@@ -58,7 +58,7 @@ struct Found {
   double run_s = 0;
 };
 
-/// As a user would ask for it, so that `repose simulate --set` makes the same runs.
+/// As a user would type them, so that `repose simulate --set` makes the same runs.
 std::vector<std::string> settings_of(const Wanted& wanted, const dem::CalliperSizes& sizes,
                                      const Variant& variant,
                                      const std::pair<double, double>& friction) {

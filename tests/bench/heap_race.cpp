@@ -27,11 +27,11 @@ namespace {
 using calibrate::ExportTarget;
 
 constexpr int kViews = 18;
-/// Of the exported deck's step, which is half of our shortest. It is the step at which heaps are
-/// simulated with LIGGGHTS: .175 of the stable one.
+/// Factor on the exported deck's step, which is half of our shortest. Gives the step at which heaps
+/// are simulated with LIGGGHTS: .175 of the stable one.
 constexpr double kLongerSteps = 5;
 
-/// The same deck in longer steps, each of its runs as long as it was. It ends when its heap rests.
+/// The same deck in longer steps; its runs keep their durations. It ends when its heap is at rest.
 std::string in_longer_steps(const std::string& deck) {
   std::istringstream lines(deck);
   std::string longer;
@@ -50,7 +50,7 @@ std::string in_longer_steps(const std::string& deck) {
   return longer;
 }
 
-/// The values that the study gives coefficients which are sought.
+/// The values that the study gives to its coefficients.
 std::vector<calibrate::FittedValue> values_of(const dem::Study& study) {
   std::vector<calibrate::FittedValue> values;
   for (const calibrate::NamedCoefficient& named : calibrate::coefficients_of(study)) {

@@ -5,7 +5,8 @@
 
 namespace repose::bench {
 
-/// The sample's heap, filled, lifted and settled: here, in LIGGGHTS, and its pictures.
+/// Times of the sample's heap, filled, lifted and settled: in repose, in LIGGGHTS, and of its
+/// views.
 struct HeapTimes {
   std::vector<double> ours_s;    ///< CPU time
   std::vector<double> theirs_s;  ///< CPU time
@@ -13,10 +14,10 @@ struct HeapTimes {
   int grains = 0;
 };
 
-/// Runs both, turn about. LIGGGHTS runs the exported deck, in steps of .175 of the stable one (ours
-/// are up to .3): the same clump, materials and rolling friction, its own fill from a loose column,
-/// and then as many seconds as ours took from the lift to rest.
-/// @param settings  of the study, as "experiment.heap.grains=100"
+/// Runs both alternately. LIGGGHTS runs the exported deck in steps of .175 of the stable one (ours
+/// are up to .3): the same clump, materials and rolling friction, its own filling from a loose
+/// column, and then until its heap is at rest.
+/// @param settings  of the study, e.g. "experiment.heap.grains=100"
 HeapTimes race_heaps(const std::vector<std::string>& settings, int rounds);
 
 }  // namespace repose::bench

@@ -57,7 +57,7 @@ double contacts_a_grain(const dem::Simulation& simulation) {
   return static_cast<double>(simulation.contacts().size()) / simulation.grain_count();
 }
 
-/// The poses of clumps whose spheres stand in a row along x, from where LIGGGHTS has the spheres.
+/// The poses of clumps whose spheres lie in a row along x, from LIGGGHTS's sphere positions.
 std::vector<dem::Grain> clumps_from(const dem::ClumpShape& shape,
                                     const std::vector<dem::Grain>& spheres) {
   const std::size_t each = shape.spheres.size();
@@ -75,7 +75,7 @@ std::vector<dem::Grain> clumps_from(const dem::ClumpShape& shape,
   return clumps;
 }
 
-/// Of its last run but `later` ones.
+/// Of the run that has `later` runs after it.
 double loop_time_s(const std::string& output, int later) {
   const std::string words = "Loop time of ";
   std::size_t at = output.rfind(words);
@@ -89,7 +89,7 @@ double loop_time_s(const std::string& output, int later) {
 /// Commands that let clumps fall into a tube from a loose cloud `height_m` high.
 std::string pouring_commands(const dem::ClumpShape& shape, double density_kg_m3,
                              double tube_radius_m, double height_m, int grains) {
-  // Seeds have to be prime numbers.
+  // Seeds must be prime numbers.
   return fmt::format(
       "fix template all particletemplate/multisphere 15485863 atom_type 1 density constant {:.17g} "
       "nspheres {} ntry 1000000 spheres file clump.txt scale 1 type 1\n"
@@ -101,7 +101,7 @@ std::string pouring_commands(const dem::ClumpShape& shape, double density_kg_m3,
       density_kg_m3, shape.spheres.size(), tube_radius_m, height_m, grains);
 }
 
-/// The file clump.txt that these ask for.
+/// The file clump.txt that these commands read.
 std::string clump_file(const dem::ClumpShape& shape) {
   std::string text;
   for (const dem::ClumpSphere& sphere : shape.spheres) {
@@ -134,7 +134,7 @@ Packing settled_clumps(const testing::TemporaryFolder& folder, int grains) {
                      .integrator = "multisphere"};
   const dem::ClumpShape& shape = packing.setup.kinds[0].shape;
   const double radius = std::get<dem::Tube>(packing.setup.walls.back().shape).inner_radius;
-  const double height = .05 + .003 * grains;  // loose enough to find a place for each
+  const double height = .05 + .003 * grains;  // loose enough to place every one
   const double fall_s = std::sqrt(2 * height / kStandardGravity_m_s2);
   const auto steps = static_cast<int>((fall_s + .3) / packing.setup.timestep_s);
   folder.write("clump.txt", clump_file(shape));
@@ -180,7 +180,7 @@ std::string Race::their_deck(const std::string& start) const {
 
 Timing Race::time_ours() {
   dem::Simulation simulation(packing_.setup, start_);
-  simulation.advance(1);  // makes its lists
+  simulation.advance(1);  // builds the neighbour lists
   const auto start = Clock::now();
   const double cpu_start_s = cpu_s();
   simulation.advance(packing_.steps);
@@ -194,7 +194,7 @@ Timing Race::time_theirs() {
   timing.cpu_s -= their_overhead_s_;
   const std::vector<dem::Grain> spheres = last_frame(folder_.path());
   const dem::ClumpShape& shape = packing_.setup.kinds[0].shape;
-  // Where its grains are, our engine finds the contacts: counted alike.
+  // Our engine counts the contacts at LIGGGHTS's final positions, so that both are counted alike.
   dem::Simulation simulation = simulation_of(
       packing_.setup, shape.spheres.size() == 1 ? spheres : clumps_from(shape, spheres));
   simulation.advance(1);

@@ -14,42 +14,42 @@ namespace repose::bench {
 struct Packing {
   dem::SimulationSetup setup;
   std::vector<dem::Grain> grains;
-  std::string start;       ///< command with which LIGGGHTS reads it
+  std::string start;       ///< command that makes LIGGGHTS read it
   std::string integrator;  ///< LIGGGHTS's
-  std::int64_t steps = 0;  ///< of a timed run: some seconds
+  std::int64_t steps = 0;  ///< of a timed run, which takes a few seconds
 };
 
-/// Spheres that we poured. Writes LIGGGHTS's file into `folder`.
+/// Spheres poured by repose. Writes LIGGGHTS's file into `folder`.
 Packing settled_spheres(const testing::TemporaryFolder& folder, int grains);
 
-/// Clumps that LIGGGHTS poured, because it takes none in given poses. Throws std::runtime_error
-/// when it does not get all of them in.
+/// Clumps poured by LIGGGHTS, because it cannot read clumps in given poses. Throws
+/// std::runtime_error if it does not insert all of them.
 Packing settled_clumps(const testing::TemporaryFolder& folder, int grains);
 
-/// What a run took.
+/// Time taken by a run.
 struct Timing {
   double elapsed_s = 0;
   double cpu_s = 0;
 };
 
-/// Runs the same steps again and again, in either engine, on one core.
+/// Runs the same steps repeatedly, in either engine, on one core.
 ///
-/// Tangential springs are not handed over: both engines first wind up their own, and each timed run
-/// begins where that ended.
+/// Tangential springs are not transferred: each engine first builds up its own, and every timed run
+/// starts from the resulting state.
 class Race {
  public:
-  /// `skin_m` is how far beyond contact LIGGGHTS lists neighbours.
+  /// `skin_m` is the gap up to which LIGGGHTS lists neighbours.
   Race(const testing::TemporaryFolder& folder, Packing packing, double skin_m);
 
   Timing time_ours();
   Timing time_theirs();
-  /// Contacts a grain at the end of the last run.
+  /// Contacts per grain at the end of the last run.
   double our_contacts() const { return our_contacts_; }
   double their_contacts() const { return their_contacts_; }
 
  private:
   std::string their_deck(const std::string& start) const;
-  /// CPU time is that of the whole process.
+  /// The CPU time is that of the whole process.
   Timing run_theirs(std::int64_t steps);
 
   const testing::TemporaryFolder& folder_;

@@ -24,7 +24,7 @@ struct Span {
   }
 };
 
-/// Of all intervals, from one step of the axis to another.
+/// Range of all intervals, rounded out to steps of the axis.
 Span heights(const std::vector<Panel>& panels) {
   Span span;
   for (const Panel& panel : panels) {

@@ -9,22 +9,22 @@ namespace repose::bench {
 struct PanelPoint {
   double x = 0;
   double y = 0;
-  double half = 0;  ///< of the interval; 0: one reading, which has none
+  double half = 0;  ///< half-width of the interval; 0: a single reading, which has none
 };
 
 struct PanelLine {
   std::string name;
-  std::vector<PanelPoint> points;  ///< with rising x
+  std::vector<PanelPoint> points;  ///< in order of increasing x
 };
 
-/// Lines over an axis whose steps are factors.
+/// Lines over a logarithmic axis.
 struct Panel {
   std::string title;
   std::vector<double> ticks;
   std::vector<PanelLine> lines;
 };
 
-/// Panels side by side as SVG, with one vertical axis and one legend: lines through the means,
+/// Panels side by side as SVG, sharing a vertical axis and a legend: lines through the means,
 /// bands and bars for the intervals.
 std::string panels_svg(const std::vector<Panel>& panels, const std::string& y_title);
 

@@ -1,5 +1,4 @@
-// How near repose comes, and how fast: `bench --help` lists what it measures, and draws heaps for
-// it.
+// Measures repose's accuracy and speed, and draws heaps: see `bench --help`.
 
 #include <cstdlib>
 #include <exception>
@@ -16,13 +15,13 @@
 namespace repose::bench {
 namespace {
 
-/// What Google's library times: *_speed.cpp.
+/// The Google Benchmark timings: *_speed.cpp.
 void add_speed(CLI::App& bench) {
   CLI::App& app = *bench.add_subcommand(
       "speed", "Of single parts, by Google Benchmark: its options, as --benchmark_filter=clumps");
   app.prefix_command();
   app.callback([&app] {
-    // One core, as the numbers to reach say; the driver of OpenGL looks at this when it starts.
+    // One core, as in the target numbers; the OpenGL driver reads this at start-up.
     ::setenv("LP_NUM_THREADS", "0", 0);
     std::vector<std::string> words = app.remaining();
     words.insert(words.begin(), app.get_name());

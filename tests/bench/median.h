@@ -5,7 +5,7 @@
 
 namespace repose::bench {
 
-/// The upper one of two.
+/// The upper of the two middle values if their number is even.
 inline double median(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::nth_element(values.begin(), middle, values.end());

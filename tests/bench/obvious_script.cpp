@@ -11,7 +11,7 @@
 namespace repose::bench {
 namespace {
 
-/// Otsu's mask of what is unlike the picture's upper corners, where a heap never is.
+/// Otsu's mask of what differs from the picture's upper corners, where there is never a heap.
 cv::Mat foreground(const vision::Picture& picture) {
   auto bytes = picture.bgr;
   const cv::Mat colour(picture.height, picture.width, CV_8UC3, bytes.data());
@@ -37,7 +37,7 @@ cv::Mat largest_blob(const cv::Mat& mask) {
   return largest == 0 ? cv::Mat() : cv::Mat(labels == largest);
 }
 
-/// Angle of y on x; nothing when there are too few points.
+/// Angle of y on x; std::nullopt if there are too few points.
 std::optional<double> slope_rad(std::span<const cv::Point2d> points) {
   if (points.size() < 5) return std::nullopt;
   cv::Point2d mean;

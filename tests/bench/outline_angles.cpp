@@ -25,7 +25,7 @@ vision::Outline above_ground(const render::Truth& truth) {
   return outline;
 }
 
-/// Heights as means over `width` points, narrower at the ends.
+/// Moving means of the heights over `width` points, fewer at the ends.
 std::vector<double> smoothed(const std::vector<double>& heights, std::size_t width) {
   std::vector<double> means;
   for (std::size_t i = 0; i < heights.size(); ++i) {

@@ -30,7 +30,7 @@ double clump_step_ns(dem::Simulation& simulation) {
   return 1e9 * (cpu_s() - start) / static_cast<double>(steps * simulation.grain_count());
 }
 
-/// Each is one of two clumps', or of a clump and a wall.
+/// Each contact is between two clumps, or between a clump and a wall.
 double contacts_a_clump(const dem::Simulation& simulation) {
   return static_cast<double>(simulation.contacts().size()) /
          static_cast<double>(simulation.grain_count());

@@ -41,7 +41,7 @@ dem::SimulationSetup setup_of(const dem::ClumpShape& shape, std::vector<dem::Wal
           .threads = threads};
 }
 
-/// Fills layers of a grid wherever `is_inside` allows, and lets all fall.
+/// Fills layers of a grid wherever `is_inside` allows, and lets the grains fall.
 template <typename Inside>
 dem::Simulation poured(const dem::SimulationSetup& setup, int grains, double spacing, double reach,
                        const Inside& is_inside) {
@@ -77,7 +77,7 @@ dem::Wall side(const Vector& position, const Vector& inwards) {
 
 dem::Simulation box_of(const dem::ClumpShape& shape, int grains, int threads) {
   const double reach = shape.reach_m();
-  // As deep as it is wide, once settled.
+  // As deep as wide, once settled.
   const double half = 1.13 * std::cbrt(grains * shape.volume_m3 * 3 / (4 * std::numbers::pi));
   const std::vector<dem::Wall> walls = {
       side({0, 0, 0}, {0, 0, 1}), side({-half, 0, 0}, {1, 0, 0}), side({half, 0, 0}, {-1, 0, 0}),
@@ -88,7 +88,8 @@ dem::Simulation box_of(const dem::ClumpShape& shape, int grains, int threads) {
       [room](const Vector& at) { return std::max(std::abs(at.x()), std::abs(at.y())) <= room; });
 }
 
-/// A grain that is round about its x axis, in a mirror across x = x_m, y = y_m or both.
+/// The mirror image of a grain with rotational symmetry about its x axis, across x = x_m, y = y_m
+/// or both.
 dem::Grain mirrored(const dem::Grain& grain, std::optional<double> x_m, std::optional<double> y_m) {
   Vector at = grain.position;
   Vector axis = grain.orientation * Vector::UnitX();

@@ -16,8 +16,8 @@ dem::Simulation tube_of_clumps(int grains, int threads);
 dem::Simulation box_of_spheres(int grains, int threads);
 dem::Simulation box_of_clumps(int grains, int threads);
 
-/// A box poured with a ninth of the grains and mirrored at its sides to 3 x 3, so that what touched
-/// a side touches its image: at rest for a ninth of the pouring. `grains` is rounded up.
+/// A box poured with a ninth of the grains and mirrored at its sides to 3 x 3, so that grains that
+/// touched a side touch their image: at rest for a ninth of the pouring. `grains` is rounded up.
 dem::Simulation wide_box_of_spheres(int grains, int threads);
 dem::Simulation wide_box_of_clumps(int grains, int threads);
 

@@ -76,7 +76,7 @@ void dump_worst(const std::vector<Row>& rows, const std::string& folder) {
     if (row.method != "script") worst.push_back(&row);
   }
   std::sort(worst.begin(), worst.end(), [](const Row* a, const Row* b) {
-    return std::pair(-badness(*a), a) < std::pair(-badness(*b), b);  // equals in their order
+    return std::pair(-badness(*a), a) < std::pair(-badness(*b), b);  // ties keep their order
   });
   worst.resize(std::min(worst.size(), kDumped));
   tbb::parallel_for(std::size_t{0}, worst.size(), [&](std::size_t i) {
@@ -100,7 +100,7 @@ void print_tables(const std::vector<Row>& rows, std::string_view section) {
   }
 }
 
-/// Of all sections together: confidence means the same in each.
+/// Over all sections together: confidence means the same in each.
 void print_reliability(const std::vector<Row>& rows) {
   std::vector<Row> part;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(part),

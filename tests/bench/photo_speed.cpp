@@ -38,8 +38,8 @@ class Photographs {
       scene.width = 4000;
       scene.height = 3000;
       scene.camera.blur_px = 1.2;
-      // Compressed once, by write_picture, and with sensor noise: files of about 2 MB, the small
-      // end of what telephones write. Smoother pictures would decode faster than real ones.
+      // Compressed once, by write_picture, with sensor noise: files of about 2 MB, at the small end
+      // of what phones write. Smoother pictures would decode faster than real ones.
       scene.camera.jpeg_quality = 0;
       scene.camera.noise = kNoise;
       files_.push_back(folder_ / (std::to_string(i) + ".jpg"));
@@ -69,7 +69,7 @@ void decode(benchmark::State& state) {
   while (state.KeepRunning()) benchmark::DoNotOptimize(read_picture(file));
 }
 
-/// Counter `ratio`: the whole / its decoding, to reach <= 3.
+/// Counter `ratio`: total time / decoding time; target <= 3.
 void decode_and_measure(benchmark::State& state) {
   const auto& file = photographs()[0];
   double decoding_s = 0;

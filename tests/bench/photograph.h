@@ -5,7 +5,7 @@
 
 namespace repose::bench {
 
-/// What rendered photographs have in common.
+/// Shared by all rendered photographs.
 inline constexpr render::PictureSize kPhotograph{1280, 853};
 inline constexpr double kFilm_mm = 36;  // wide, as PerspectiveCamera::focal_mm has it
 

@@ -1,6 +1,6 @@
-// Made-up materials are measured on a made-up bench, calibrated, and compared with what they are:
-// do the 95 % intervals hold the truth, and how narrow are they? In simulations, or by tables of
-// runs that a made-up program is asked for round by round.
+// Synthetic materials are measured on a synthetic bench, calibrated, and compared with the truth:
+// do the 95 % intervals contain it, and how narrow are they? By simulations, or by tables of runs
+// that are requested from a synthetic program round by round.
 
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ namespace {
 
 namespace fake = calibrate::fake;
 
-/// As a study makes it: rounds, and where these have coarse runs checks of full ones.
+/// As in a study: rounds, then checks with full runs if the rounds used coarse ones.
 calibrate::JointFit checked_fit(const calibrate::Problem& problem) {
   fake::Runs runs = fake::study(problem);
   calibrate::JointFit fit = fit_jointly(problem, runs);
@@ -62,7 +62,7 @@ calibrate::JointFit checked_fit(const calibrate::Problem& problem) {
   return fit;
 }
 
-/// On a made-up bench and with made-up simulations, whose truth is known exactly: minutes.
+/// With a synthetic bench and synthetic simulations, whose truth is known exactly: takes minutes.
 void recover(const SimulatedRecovery& plan) {
   calibrate::Random random(plan.seed);
   RecoveryTally tally(fake::parameters());
@@ -79,8 +79,8 @@ void recover(const SimulatedRecovery& plan) {
   tally.print();
 }
 
-/// What a made-up program reads: both readings saturate with friction, unlike anything that the fit
-/// supposes, hardly depend on restitution, and scatter from seed to seed.
+/// A reading of a synthetic program: both saturate with friction, unlike anything the fit assumes,
+/// hardly depend on restitution, and scatter from seed to seed.
 struct MadeUpReading {
   const char* name;
   double (*expected)(const std::vector<double>& values);
@@ -123,7 +123,7 @@ std::string table_study(const std::vector<double>& truth, calibrate::Random& ran
   return text;
 }
 
-/// A material's study, and the tables that were asked for and filled in.
+/// A material's study, and the tables of requested and completed runs.
 class TableOfMaterial {
  public:
   TableOfMaterial(const std::vector<double>& truth, calibrate::Random& random)
@@ -131,7 +131,7 @@ class TableOfMaterial {
         study_(
             calibrate::read_table_study(folder_.write("study.toml", table_study(truth, random)))) {}
 
-  /// Asks for runs and makes them, until there are so many or no more are worth making.
+  /// Requests runs and makes them until there are `most` or no further ones are worthwhile.
   void run(std::size_t most) {
     constexpr std::size_t kStart = 16, kRound = 8;
     std::size_t made = 0;
@@ -167,8 +167,8 @@ class TableOfMaterial {
   std::vector<std::filesystem::path> files_;
 };
 
-/// Further runs of the made-up program, anywhere: how many of them are within the intervals that
-/// are predicted.
+/// Further runs of the synthetic program at random places: how many lie within the predicted
+/// intervals.
 int predicted_runs(const calibrate::TableStudy& study, const calibrate::TableRuns& table,
                    const std::vector<std::vector<double>>& places, calibrate::Random& random) {
   const auto predicted =
@@ -185,8 +185,8 @@ int predicted_runs(const calibrate::TableStudy& study, const calibrate::TableRun
   return held;
 }
 
-/// By tables of a program of somebody else, asked for round by round; the same runs are fitted as
-/// those of a study that repose simulates, too.
+/// By tables of an external program, requested round by round; the same runs are also fitted like
+/// those of a study that repose simulates.
 void recover_by_tables(const SimulatedRecovery& plan, std::size_t runs_each) {
   constexpr std::size_t kPlaces = 20;
   calibrate::Random random(plan.seed);

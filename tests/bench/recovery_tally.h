@@ -12,21 +12,21 @@
 
 namespace repose::bench {
 
-/// Anywhere but the outer tenths of the bounds; grains that do not rebound at all, below .2 of
-/// restitution's, would give readings without scatter.
+/// Anywhere but in the outer tenths of the bounds; for restitution, the first parameter, not below
+/// .2 of them: grains that hardly rebound would give readings without scatter.
 std::vector<double> made_up_material(const std::vector<calibrate::Parameter>& parameters,
                                      calibrate::Random& random);
 
-/// How the parameters came back over all materials.
+/// How well the parameters were recovered over all materials.
 class RecoveryTally {
  public:
   explicit RecoveryTally(std::vector<calibrate::Parameter> parameters);
 
-  /// Widths that were foreseen, as parts of the bounds' distance.
+  /// Sets the predicted widths, as fractions of the bounds' distance.
   void foresee(std::vector<double> widths) { foreseen_ = std::move(widths); }
-  /// `verbose`: says every parameter.
+  /// `verbose`: prints every parameter.
   void add(const calibrate::JointFit& fit, const std::vector<double>& truth, bool verbose);
-  /// The same, with the verdicts on bench and simulation, and what was held out.
+  /// The same, with the verdicts on agreement with the bench, and the held-out readings.
   void add(const calibrate::StudyOutcome& outcome, const std::vector<double>& truth, bool verbose);
   void print() const;
 
@@ -34,12 +34,12 @@ class RecoveryTally {
   struct Row {
     std::map<calibrate::Verdict, int> verdicts;
     int held = 0;             ///< truths inside the interval
-    int held_determined = 0;  ///< of the determined ones
+    int held_determined = 0;  ///< those of determined parameters
     std::vector<double> widths;
   };
   struct HeldOut {
     std::map<calibrate::AgreementVerdict, int> verdicts;
-    int held = 0;  ///< differences that are no more than chance makes in 5 % of cases
+    int held = 0;  ///< differences not significant at the 5 % level
     int predictions = 0;
   };
 

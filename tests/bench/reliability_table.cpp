@@ -17,7 +17,7 @@ using testing::Group;
 
 constexpr double kGoodEnough_deg = 1;
 
-/// Empty when it got no angle.
+/// std::nullopt if it got no angle.
 std::optional<bool> is_right(const Row& row) {
   if (!row.mean.measured_deg) return std::nullopt;
   const auto error = row.mean.error_deg();
@@ -27,9 +27,9 @@ std::optional<bool> is_right(const Row& row) {
 
 struct Bin {
   std::string_view name;
-  double below;  ///< the confidence of its pictures; not below the former bin's
+  double below;  ///< upper limit of its pictures' confidence; the previous bin's is the lower limit
   int pictures = 0;
-  int invented = 0;  ///< got an angle without a heap
+  int invented = 0;  ///< angles where there is no heap
   Share right = {};
   Share right_and_ok = {};  ///< of those with the status ok
 

@@ -20,7 +20,7 @@ using render::SilhouetteStyle;
 
 constexpr PictureSize kFullHd{1920, 1080};
 
-/// The smallest heap of at least so many nuts.
+/// The smallest heap of at least this many nuts.
 Scene heap_of(int grains) {
   constexpr double kAngle_rad = .45;
   int across = 2;
@@ -31,7 +31,7 @@ Scene heap_of(int grains) {
   return scene;
 }
 
-/// Each picture from another side, so that nothing is drawn twice.
+/// Each picture from a different side, so that nothing is drawn twice.
 void silhouette(benchmark::State& state) {
   const Scene scene = heap_of(static_cast<int>(state.range(0)));
   const auto shown = state.range(1) == 0 ? Shown::mesh : Shown::spheres;
@@ -52,7 +52,7 @@ void truth(benchmark::State& state) {
   }
 }
 
-/// One of the passes that a photo is the mean of, and what is done once for each photo.
+/// The passes whose mean is a photo, plus the work done once per photo.
 void photo(benchmark::State& state) {
   const Scene scene = heap_of(500);
   const auto camera = camera_on({.distance_m = 1.5}, scene, kFullHd);

@@ -29,7 +29,7 @@
 namespace repose::bench {
 namespace {
 
-/// What a film of a run was read as: one number, or for a drop one for each bounce.
+/// A value read from a film of a run: one per film, or for a drop one per bounce.
 struct Reading {
   double truth = 0;
   vision::Estimate read;
@@ -38,7 +38,7 @@ struct Reading {
 struct FilmRow {
   unsigned seed = 0;
   std::string setting;
-  std::string reason = {};  ///< of no reading
+  std::string reason = {};  ///< why there is no reading
   bool is_flagged = false;
   std::vector<Reading> readings = {};
 };
@@ -50,7 +50,7 @@ class Chance {
     return least + (most - least) * static_cast<double>(random_()) / 4294967296.0;
   }
   bool one_of(unsigned count) { return random_() % count == 0; }
-  /// What a person points at, within a pixel or so.
+  /// Error of a person's pointing: a pixel or so.
   double pointing_px() { return std::normal_distribution<double>(0, .5)(random_); }
 
  private:
@@ -119,7 +119,7 @@ struct Look {
 Look look_of(Chance& chance, double frames_per_s, const render::PictureSize& size, unsigned seed) {
   Look look{.size = size};
   render::PhotoStyle& style = look.style;
-  // Dark and coloured grains before a light backdrop, or light ones before a dark one.
+  // Dark and coloured grains against a light backdrop, or light ones against a dark one.
   const bool is_dark = !chance.one_of(3);
   const auto colour = [&](double least, double most) {
     return render::Colour{chance.between(least, most), chance.between(least, most),
@@ -144,11 +144,11 @@ Look look_of(Chance& chance, double frames_per_s, const render::PictureSize& siz
   return look;
 }
 
-/// A film of a run in a folder that goes away with it.
+/// A film of a run in a folder that is removed with it.
 struct FilmedFile {
   testing::TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "film.mp4";
-  vision::ScaleBar ruler;  ///< as in the picture
+  vision::ScaleBar ruler;  ///< in the picture
 };
 
 std::unique_ptr<FilmedFile> filmed(const Recorder& recorder, const Look& look) {
@@ -169,7 +169,7 @@ std::unique_ptr<FilmedFile> filmed(const Recorder& recorder, const Look& look) {
   return made;
 }
 
-/// Restitutions of a ball's bounces, by its energy in flight: exact whenever it is looked at.
+/// Restitutions of a ball's bounces, from its energy in flight: exact at any sampling time.
 std::vector<double> restitutions_of(const std::vector<render::Scene>& scenes, double radius_m) {
   constexpr double kAbove_m = 1e-4, kChange = .01;
   std::vector<double> energies;
@@ -215,7 +215,7 @@ FilmRow roll_row(double frames_per_s, bool has_scale, unsigned seed) {
   dem::Model model = model_of(chance, is_clump);
   const dem::RollProtocol protocol{.incline_deg = chance.between(10, 25),
                                    .release_m = chance.between(.08, .12)};
-  // So that by its energy a ball comes this far.
+  // Chosen so that by its energy a ball rolls this far.
   const double far_m = chance.between(.1, .25);
   const double angle = protocol.incline_deg * std::numbers::pi / 180;
   model.grain_wall.rolling_friction =
@@ -286,7 +286,7 @@ void print_film(const FilmRow& row) {
   std::fflush(stdout);
 }
 
-/// Of a film's first reading; intervals of all of them.
+/// Errors of each film's first reading; intervals of all readings.
 void print(const std::string& what, const char* unit, bool is_relative,
            const std::vector<FilmRow>& rows) {
   std::vector<double> errors;

@@ -25,16 +25,16 @@ using testing::hash_of;
 using testing::radians;
 using testing::Random;
 
-/// All that makes a picture.
+/// Everything that defines a picture.
 struct Staging {
   GrainCone cone;
   render::Camera camera = {};
   render::Style style = {};
   int jpeg_quality = 0;                       ///< 0: not compressed
-  std::optional<double> told_pitch_rad = {};  ///< to the measurement
+  std::optional<double> told_pitch_rad = {};  ///< given to the measurement
 };
 
-/// A staging being made up, and the random numbers it is made from.
+/// A staging under construction, and the random numbers it is made from.
 struct Draft {
   Staging staging;
   render::Scene scene;
@@ -75,7 +75,7 @@ render::PhotoStyle photo_style(double least_contrast, Random& random) {
   return style;
 }
 
-/// A well-lit photograph by parallel rays, the start of every condition.
+/// A well-lit photograph in parallel projection: the start of every condition.
 Draft draft_of(const GrainCone& cone, std::string_view condition, std::uint64_t seed) {
   constexpr double kMinContrast = 32;
   Draft draft{.staging = {.cone = cone},
@@ -84,7 +84,7 @@ Draft draft_of(const GrainCone& cone, std::string_view condition, std::uint64_t 
   auto& [staging, scene, random] = draft;
   scene = scene_of(staging.cone);
   const double azimuth_rad = random.uniform(0, 2 * std::numbers::pi);
-  // The plate is put down along the picture, as people do.
+  // The plate is aligned with the picture, as people do.
   scene.walls.front().pose.orientation = Eigen::AngleAxisd(azimuth_rad, dem::Vector::UnitZ());
   const double radius_m = base_radius_m(staging.cone);
   const double fraction = random.uniform(.5, .75);
@@ -106,7 +106,7 @@ render::PhotoStyle& photo(Draft& draft) {
   return std::get<render::PhotoStyle>(draft.staging.style);
 }
 
-/// Puts a camera with a lens before the heap. Distance in base radii, from the heap's middle.
+/// Puts a camera with a lens in front of the heap. Distance in base radii, from the heap's middle.
 render::PerspectiveCamera& set_lens(Draft& draft, double distance, double pitch_rad = 0) {
   const auto& level = std::get<render::OrthographicCamera>(draft.staging.camera);
   const double radius_m = base_radius_m(draft.staging.cone);
@@ -120,7 +120,7 @@ render::PerspectiveCamera& set_lens(Draft& draft, double distance, double pitch_
   return std::get<render::PerspectiveCamera>(draft.staging.camera);
 }
 
-/// At least three heap widths away, as the instructions say.
+/// At least three heap widths away, as the instructions require.
 double good_distance(Random& random) { return random.uniform(6, 10); }
 
 void make_silhouette(Draft& draft) {
@@ -176,9 +176,9 @@ Draft blur_noise_jpeg(std::uint64_t seed) {
   return made;
 }
 
-/// The heap's surface of revolution is a power of the cone's height. What is to be found is the
+/// The heap's surface of revolution is a power of the cone's height. The true angle is by the
 /// definition on the exact outline of its grains, as for the other conditions; the outline follows
-/// the smooth surface's but for their bumps.
+/// that of the smooth surface except for their bumps.
 Draft hollowed(std::string_view condition, std::uint64_t seed) {
   Random random(seed * 0x9E3779B97F4A7C15 ^ hash_of("hollow"));
   GrainCone cone = cone_of(seed);
@@ -241,7 +241,7 @@ constexpr std::array kConditions = {
     RenderedCondition{"near_lens", Group::misplaced, near_lens},
 };
 
-/// The driver uses all cores for one picture.
+/// One picture at a time: the driver uses all cores for each.
 vision::Picture drawn(const render::Scene& scene, const Staging& staging) {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);

@@ -1,5 +1,5 @@
-// How near angle and volume of scanned heaps come, and how often their intervals hold the truth:
-// heaps of grains, scanned by depth cameras with noise, registered with error.
+// Accuracy of angle and volume of scanned heaps, and how often their intervals contain the truth:
+// heaps of grains, scanned by depth cameras with noise and registration errors.
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ struct ScannedRow {
   std::string name;
   vision::ScannedHeap heap;
   double angle_deg = 0;       ///< the truth
-  double silhouette_deg = 0;  ///< what its silhouettes show
+  double silhouette_deg = 0;  ///< true angle of its silhouettes
   vision::ReposeAngle seen;   ///< in silhouettes of the scan
   double volume_ml = 0;
 };
@@ -86,7 +86,7 @@ DepthScanner scanner_for(std::uint64_t seed) {
   return scanner;
 }
 
-/// The angle that silhouettes of the surface show, seen from all sides: the mean over 36 of them.
+/// The angle of the surface's silhouettes: the mean over 36 of them, from all sides.
 double silhouette_deg(const std::vector<base::Corner>& points) {
   constexpr int kViews = 36, kColumns = 800;
   double half = 0, sum = 0;
@@ -102,7 +102,7 @@ double silhouette_deg(const std::vector<base::Corner>& points) {
       double& height = highest[static_cast<std::size_t>(column)];
       height = std::max(height, point[2]);
     }
-    // The heap alone: the ground beside it, and strays beyond a gap, are none of its outline.
+    // The heap alone: the ground beside it, and strays beyond a gap, are not part of its outline.
     const auto crest = std::max_element(highest.begin(), highest.end());
     const auto last = std::find(crest, highest.end(), 0.0);
     const auto first = std::find(std::make_reverse_iterator(crest), highest.rend(), 0.0).base();

@@ -7,7 +7,7 @@
 
 namespace repose::bench {
 
-/// How many of those that can be asked say yes.
+/// Fraction of hits among the cases that have an answer.
 struct Share {
   int hits = 0;
   int all = 0;

@@ -29,7 +29,7 @@ constexpr double kReading_deg = .5, kReadingFraction = .03;
 constexpr std::uint64_t kBenchSeeds = 1'000'000;       // no study uses these
 constexpr std::uint64_t kStudySeeds = 10'000'000'000;  // a study uses fewer
 
-/// The study, less the experiments that are not made.
+/// The study without the experiments that are not run.
 dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::string>& more) {
   std::vector<std::string> settings = plan.settings;
   settings.insert(settings.end(), more.begin(), more.end());
@@ -41,8 +41,8 @@ dem::Study read_plan(const SimulatedRecovery& plan, const std::vector<std::strin
   return study;
 }
 
-/// Settings that make the study a bench: single readings of single grains, as stiff as they are,
-/// and what the study does not know of.
+/// Settings that turn the study into a bench: single readings of single grains, at their real
+/// stiffness, and the properties that the study does not know.
 std::vector<std::string> bench_settings(const SimulatedRecovery& plan, const dem::Study& study) {
   std::vector<std::string> settings = plan.bench_settings;
   for (const auto& [experiment, described] : study.experiments) {
@@ -59,14 +59,14 @@ std::vector<std::string> bench_settings(const SimulatedRecovery& plan, const dem
   return settings;
 }
 
-/// With something measured everywhere, a study says what is sought.
+/// A dummy measurement for every experiment makes the study list its free parameters.
 calibrate::Problem problem_in(dem::Study study, const dem::ClumpFile& grain,
                               const calibrate::Budget& budget) {
   for (auto& [experiment, described] : study.experiments) described.measured.mean = 1;
   return calibrate::problem_of(study, grain, budget).problem;
 }
 
-/// A study, its grain, and where its runs are kept.
+/// A study, its grain, and where its runs are stored.
 struct Calibrated {
   const dem::Study& study;
   const dem::ClumpFile& grain;
@@ -75,9 +75,9 @@ struct Calibrated {
 
 int cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
 
-/// The widths of intervals that `repose plan` foresees with so many readings of each experiment, as
-/// parts of the bounds' distance: what is known before anything is measured. It is told how this
-/// bench scatters beside its grains, which is less than it takes a person's for.
+/// The interval widths that `repose plan` predicts for this many readings of each experiment, as
+/// fractions of the bounds' distance, before anything is measured. It is given this bench's own
+/// scatter, apart from its grains', which is less than it assumes for a person's.
 std::vector<double> foreseen_widths(const Calibrated& with, calibrate::Problem problem,
                                     int readings) {
   for (calibrate::Experiment& experiment : problem.experiments) {
@@ -99,7 +99,7 @@ std::vector<double> foreseen_widths(const Calibrated& with, calibrate::Problem p
 
 class Material {
  public:
-  /// `bench`: the study as it is measured, see bench_settings.
+  /// `bench`: the study as measured, see bench_settings.
   Material(const Calibrated& with, const Calibrated& bench, std::optional<int> count,
            const std::vector<calibrate::Parameter>& sought, std::vector<double> truth,
            std::uint64_t number)
@@ -112,7 +112,7 @@ class Material {
         truth_(std::move(truth)),
         number_(number),
         random_(number) {
-    // With the seeds of one study all materials would be checked in the same few poses.
+    // With one study's seeds, all materials would be checked in the same few poses.
     study_.seed = kStudySeeds * (number_ + 1);
     simulator_.store_in(folder_);
     bench_.store_in(bench.folder);
@@ -128,7 +128,7 @@ class Material {
   }
 
  private:
-  /// What a bench would read, less the readings that failed.
+  /// The readings of a bench, without those that failed.
   std::vector<double> readings(const dem::ExperimentEntry& experiment) {
     std::vector<double> values;
     const int wanted =

@@ -25,9 +25,9 @@
 #include "tests/bench/benches.h"
 #include "tests/bench/clock.h"
 
-// Experiments of a few grains with random settings, all of them such as a study may have. Each must
-// end: with finite readings, or with a reason why there are none. What does not is printed with its
-// number, by which it can be made again: --first N --count 1.
+// Experiments of a few grains with random settings that a study may have. Each must end with finite
+// readings, or with a reason why there are none. Any that does not is printed with its number,
+// which reproduces it: --first N --count 1.
 
 namespace repose::bench {
 namespace {
@@ -40,7 +40,7 @@ struct Soak {
   std::string only;       ///< this experiment; empty: all
 };
 
-/// As often in each power of ten.
+/// Uniform in the logarithm.
 double spread(base::Random& random, double low, double high) {
   return low * std::pow(high / low, random.uniform());
 }
@@ -65,7 +65,7 @@ dem::PairCoefficients pair(base::Random& random) {
           .rolling_friction = random.between(0, .3)};
 }
 
-/// Soft enough for a run to take a second or so, stiff enough not to be squashed.
+/// Soft enough for a run to take about a second, stiff enough not to be squashed.
 dem::Model model(base::Random& random) {
   dem::Model model;
   model.grain = grain(random);

@@ -8,10 +8,10 @@
 #include "tests/support/heap_conditions.h"
 #include "vision/picture/picture.h"
 
-/// What is measured: pictures of heaps whose angles are known.
+/// Test pictures of heaps whose angles are known.
 namespace repose::bench {
 
-/// Angles from the ground; empty when there is no such flank.
+/// Angles from the ground; std::nullopt if there is no such flank.
 struct FlankAngles {
   std::optional<double> left_rad = {};
   std::optional<double> right_rad = {};
@@ -26,11 +26,11 @@ struct FlankAngles {
 struct KnownPicture {
   vision::Picture picture;
   FlankAngles heap;       ///< what a measurement should find
-  FlankAngles seen = {};  ///< of the exact outline in this picture, where that is another one
-  std::optional<double> told_pitch_rad = {};  ///< the camera's, where the measurement is told
+  FlankAngles seen = {};  ///< of the exact outline in this picture, if that differs
+  std::optional<double> told_pitch_rad = {};  ///< the camera's, if given to the measurement
 };
 
-/// A picture that can be had again.
+/// A picture that can be reproduced.
 struct Subject {
   std::string_view
       section;  ///< how its pictures are made: "drawn", "rendered", or "other" without a heap

@@ -26,7 +26,7 @@ struct TiltRow {
   TiltTrack track;
 };
 
-/// Somewhere within the settings of films that people take.
+/// Random settings within the range of films that people take.
 DrawnTilt random_tilt(double frames_per_s, unsigned seed) {
   std::mt19937 random(seed);
   const auto between = [&](double least, double most) {
@@ -47,7 +47,7 @@ DrawnTilt random_tilt(double frames_per_s, unsigned seed) {
   tilt.plate_to = between(.8, .97);
   tilt.thickness_px = between(4, 16);
   tilt.edge_row = between(.8, .88);
-  // People see to it that the grain stays in the picture until it slides.
+  // People make sure that the grain stays in the picture until it slides.
   constexpr double kAbove_px = 50;
   const double rise_px = tilt.edge_row * tilt.height - kAbove_px;
   const double farthest =

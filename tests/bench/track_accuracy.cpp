@@ -1,6 +1,6 @@
-// How near repose track comes to what is known of films, and how often its intervals hold: films
-// with many settings, written as H.264 and read again. They are drawn, with paths by formulas, or
-// rendered, with paths that were simulated.
+// Accuracy of repose track on films with known truth, and how often its intervals contain it: films
+// with many settings, encoded as H.264 and read back. They are drawn, with paths by formulas, or
+// rendered, with simulated paths.
 
 #include <algorithm>
 #include <cmath>
@@ -35,13 +35,13 @@ using vision::Bounce;
 using vision::DropTrack;
 using vision::RollTrack;
 
-/// What a film gave.
+/// The result for one film.
 struct DropRow {
   DrawnDrop drawn;
   DropTrack track;
 };
 
-/// Somewhere within the settings of films that people take.
+/// Random settings within the range of films that people take.
 DrawnDrop random_drop(double frames_per_s, unsigned seed) {
   std::mt19937 random(seed);
   const auto between = [&](double least, double most) {
@@ -122,19 +122,19 @@ DrawnRoll random_roll(double frames_per_s, unsigned seed) {
   return roll;
 }
 
-/// What a film of a roll gave.
+/// The result for one film of a roll.
 struct RollRow {
   DrawnRoll drawn;
   RollTrack track;
 };
 
 RollRow roll_row_of(DrawnRoll drawn, bool has_scale) {
-  // Without a ruler the place of release must be seen: the grain is held by a card or a thread.
+  // Without a ruler the point of release must be visible: the grain is held by a card or a thread.
   if (!has_scale) drawn.has_hand = false;
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "roll.mp4";
   testing::write_film(file, drawn);
-  // A person points at its marks, within a pixel or so.
+  // A person points at its marks, to within a pixel or so.
   std::mt19937 random(drawn.seed);
   std::normal_distribution<double> pointing(0, .5);
   const vision::ScaleBar ruler{.line = {{40 + pointing(random), 20}, {440 + pointing(random), 20}},
@@ -170,7 +170,7 @@ void print(double frames_per_s, bool has_scale, const std::vector<RollRow>& rows
   std::fflush(stdout);
 }
 
-/// So many films, several at a time.
+/// This many films, several at a time.
 template <typename Made>
 auto made(int films, unsigned first_seed, const Made& make) {
   std::vector<decltype(make(first_seed))> rows(static_cast<std::size_t>(films));

@@ -1,9 +1,9 @@
 """Runs the commands of the documents: check_commands.py REPOSE
 
 In blocks marked sh or console each command is run in a shell, in a folder with sample files; in console
-blocks those after "$ ", and the lines below are what it prints (others may stand between them). After
-repose new the test goes to the bench: it fills in the sheets. Scripts
-of the repository are checked for their syntax and options, not run. Blocks marked otherwise are not run.
+blocks commands follow "$ ", and the lines below are their output (which may have others between them).
+After repose new the test fills in the sheets, as if the bench had been used. Scripts of the repository
+are checked for syntax and options but not run. Other blocks are not run.
 """
 
 import concurrent.futures
@@ -22,7 +22,7 @@ LONGEST_S = 120
 
 
 def commands_of(block):
-    """Each command's line and text, and the lines that it is said to print."""
+    """Each command's line and text, and the output lines shown below it."""
     commands = []
     for line in block.lines:
         if block.language == "sh" and line.text.strip():
@@ -35,7 +35,7 @@ def commands_of(block):
 
 
 def is_alike(shown, printed):
-    """The same words; numbers may differ by rounding."""
+    """Whether the words are the same; numbers may differ by rounding."""
     if len(shown) != len(printed):
         return False
     for ours, theirs in zip(shown, printed):
@@ -50,7 +50,7 @@ def is_alike(shown, printed):
 
 
 def missing_line(shown, output):
-    """The first of the lines that the output does not have, in their order; None: it has all."""
+    """The first line that is missing from the output, in order; None if all are there."""
     printed = iter([line.split() for line in output.splitlines()])
     for line in shown:
         if not any(is_alike(line.text.split(), words) for words in printed):

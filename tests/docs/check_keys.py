@@ -13,8 +13,8 @@ import workplace
 # Objects whose keys are names of factors, coefficients, observables or experiments.
 OPEN = {"effects", "interval_widths", "determined", "levels", "coded", "ranges", "direction", "values", "parameters", "sd", "simulated", "checked_at",
         "stiffness_factor", "shortest_timestep_s", "definitions_deg", "simulated_deg", "repeat_sd", "reading_sd"}
-# Commands by the heading in json.md under which their output is described. (repose verify is left out:
-# it takes long.)
+# Commands by the heading in json.md under which their output is described. (repose verify is left out
+# because it takes long.)
 OUTPUTS = {
     "measure": ["measure photos --json - --threads 2", "measure heap.avi --every 0.5 --json -",
                 "measure heap.ply --unit mm --json -", "measure particles.csv --json -"],
@@ -44,20 +44,20 @@ SECTIONS = ["study", "particle", "wall", "wall.tube", "contact", "contact.partic
 
 
 def experiments(repose, folder):
-    """Names of all experiments, which the program lists when it does not know one."""
+    """Names of all experiments, which the program lists when given an unknown one."""
     done = subprocess.run([repose, "simulate", "unheard_of", "study.toml"], cwd=folder, capture_output=True, text=True)
     return re.findall(r"\w+", done.stderr.partition("Fix: ")[2].replace(" or ", ", "))
 
 
 def simulations(names):
-    """A run of each that OUTPUTS has not, as the study has it or with the usual numbers."""
+    """A run of each experiment missing from OUTPUTS, as in the study or with default numbers."""
     listed = {command.split()[1] for command in OUTPUTS["simulate"]}
     return [f"simulate {name} study.toml --repeats 2 --set experiment.{name}.stiffness_factor=1 --json -"
             for name in names if name not in listed]
 
 
 def keys_in(value):
-    """All keys of a JSON value but those of open objects."""
+    """All keys of a JSON value except those of open objects."""
     if isinstance(value, list):
         for item in value:
             yield from keys_in(item)
@@ -69,7 +69,7 @@ def keys_in(value):
 
 
 def keys_of_schema(part):
-    """All keys that a JSON Schema knows."""
+    """All keys that a JSON Schema defines."""
     if isinstance(part, dict):
         if isinstance(part.get("properties"), dict):
             yield from part["properties"]
@@ -119,7 +119,7 @@ def errors_of_schema(document, root):
 
 
 def errors_of_studies(document, folder, repose, names):
-    """The program lists the keys of a section when one is not among them."""
+    """Relies on the program listing the keys of a section when given an unknown one."""
     words = words_under(document)
     experiment_sections = [f"experiment.{name}" for name in names]
     also = [f"{section}.also_measured" for section in experiment_sections]  # those that have any

@@ -5,7 +5,7 @@ import urllib.parse
 import documents
 
 def error_of(document, link, known):
-    """What is wrong with a link; empty: nothing."""
+    """The error in a link; empty if there is none."""
     name, _, anchor = link.partition("#")
     target = (document.file.parent / urllib.parse.unquote(name)).resolve() if name else document.file
     if not target.exists():

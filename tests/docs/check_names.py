@@ -1,4 +1,4 @@
-"""Files, folders and tests that the documents name exist: check_names.py"""
+"""Files, folders and tests named in the documents exist: check_names.py"""
 
 import os
 import re
@@ -16,7 +16,7 @@ def tracked_files(root):
                             capture_output=True, text=True)
     if listed.returncode == 0:
         return {name for name in listed.stdout.splitlines() if (root / name).exists()}
-    skipped = {"build", "node_modules"}  # no repository: an archive of one
+    skipped = {"build", "node_modules"}  # for an unpacked archive, which is not a repository
     files = set()
     for folder, folders, names in os.walk(root):
         folders[:] = [name for name in folders if name not in skipped]
@@ -33,7 +33,7 @@ def folders_of(files):
 
 
 def tests_in(root, files):
-    """Suites, and tests as SUITE.NAME."""
+    """Names of suites, and of tests as SUITE.NAME."""
     names = set()
     for name in files:
         if name.startswith("tests/") and name.endswith(".cpp"):
@@ -43,7 +43,7 @@ def tests_in(root, files):
 
 
 def is_path(span, modules):
-    """A path from the top of the repository, without a place to be filled in."""
+    """Whether it is a path from the repository's root, without a placeholder."""
     return span.split("/")[0] in modules and "/" in span and re.fullmatch(r"[\w./-]*[a-z0-9]", span)
 
 

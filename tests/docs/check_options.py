@@ -8,14 +8,14 @@ import sys
 import documents
 
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
-# Of cmake, mpirun, npm and our own scripts, which documents mention outside of commands.
+# Options of cmake, mpirun, npm and our own scripts that the documents mention outside of commands.
 OTHER_PROGRAMS = {
     "--fresh", "--install", "--preset", "--sanitize", "--tests", "--thread", "--tidy", "--workflow",
 }
 
 
 def helps_of(repose):
-    """What the program and each command say when asked for help, by the command's name."""
+    """The help of the program and of each command, by the command's name."""
     def help_of(command):
         words = [repose, *command.split(), "--help"]
         return subprocess.run(words, capture_output=True, text=True, check=True).stdout
@@ -44,7 +44,7 @@ def wrong_in_blocks(document, options):
 
 
 def wrong_in_helps(helps, options):
-    """In the examples of a help, which are indented."""
+    """Checks the examples in each help, which are indented."""
     for command, text in helps.items():
         for line in re.findall(r"^  repose .*", text, re.MULTILINE):
             for error in wrong_in_command(line, options):

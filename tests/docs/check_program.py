@@ -1,4 +1,4 @@
-"""The C++ program in building.md is one that is compiled and run: check_program.py"""
+"""The C++ program in building.md is one of those compiled and run: check_program.py"""
 
 import documents
 

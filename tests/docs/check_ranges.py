@@ -1,8 +1,8 @@
-"""Ranges and defaults in the study reference are those of the program: check_ranges.py REPOSE
+"""Ranges and defaults in the study reference match the program's: check_ranges.py REPOSE
 
-Every number key in a table of docs/study-file.md is given a value that is wrong; the rule in the
-program's error must name the same numbers as the table. Defaults of the experiments are compared with
-those that repose new writes."""
+Every number key in a table of docs/study-file.md is given a wrong value; the table must name all numbers
+of the rule in the program's error. Defaults of the experiments are compared with those that repose new
+writes."""
 
 import pathlib
 import re
@@ -16,12 +16,12 @@ SECTION = re.compile(r"^###? `?([a-z._]+)`?$")
 ROW = re.compile(r"^\| `(\w+)` \|(.*)\|$")
 NUMBER = re.compile(r"(?<![\w.])-?\d[\d,]*(?:\.\d+)?(?:e\d+)?")
 WRONG = "-1e30"
-# Two ranges, an implausible and an impossible one, told in a section of their own; and what stands within
-# a table in braces.
+# Two with an implausible and an impossible range, explained in a separate section; and two that stand in
+# braces within a table.
 ELSEWHERE = {"density_kg_m3", "young_modulus_pa", "tolerance", "bias_sd"}
-# Any one of those that have the keys of a heading.
+# Any one of the sections that have the keys under a heading.
 SECTION_OF = {"experiment": "experiment.heap"}
-ENDLESS = 1e15  # a limit that no one meets
+ENDLESS = 1e15  # a limit beyond any realistic value
 
 
 def numbers_in(text):
@@ -31,7 +31,7 @@ def numbers_in(text):
 
 
 def number_keys(document):
-    """Section, key, default and rule of each number in the document's tables."""
+    """Line, section, key, default and rule of each number in the document's tables."""
     section, rule = None, ""
     for line in document.lines:
         heading = SECTION.match(line.text)
@@ -49,18 +49,18 @@ def number_keys(document):
 
 
 def rules_of(keys, folder, repose):
-    """What the program says of a wrong value of each key."""
+    """The program's rule for each key, from its error for a wrong value, and all that it printed."""
     settings = [word for _, section, key, _, _ in keys for word in ("--set", f"{section}.{key}={WRONG}")]
     done = subprocess.run([repose, "simulate", "drop", "study.toml", *settings], cwd=folder,
                           capture_output=True, text=True)
     rules = {}
     for name, rule in re.findall(r"([\w.]+) = \S+\. Rule: (.*?)\. Fix: ", done.stderr):
-        rules.setdefault(name, rule)  # of two rules the range comes first
+        rules.setdefault(name, rule)  # if there are two rules, the range comes first
     return rules, done.stderr
 
 
 def defaults_of(folder, repose):
-    """Of the experiments' keys, as a new study has them."""
+    """Defaults of the experiments' keys, as in a new study."""
     subprocess.run([repose, "new", "ranges.toml", "--experiments",
                     "drop,tilt,roll,drop_on_grains,tilt_on_grains,roll_on_grains,fill,pendulum"], cwd=folder, check=True,
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -1,4 +1,4 @@
-"""What the documents contain: headings, links, code spans and blocks, each with its line."""
+"""Contents of the documents: headings, links, code spans and blocks, each with its line."""
 
 import dataclasses
 import pathlib
@@ -23,7 +23,7 @@ class Block:
 
 
 class Document:
-    """A Markdown file; `lines` are those outside of code blocks."""
+    """A Markdown file; `lines` are those outside code blocks."""
 
     def __init__(self, file, root):
         self.file = file
@@ -45,7 +45,7 @@ class Document:
         return f"{self.name}:{line.number}"
 
     def anchors(self):
-        """Names of the headings as links write them."""
+        """Names of the headings as used in links."""
         found = (HEADING.match(line.text) for line in self.lines)
         return {anchor_of(heading[1]) for heading in found if heading}
 
@@ -57,12 +57,12 @@ class Document:
 
 
 def anchor_of(heading):
-    """As GitHub does it: lower case, punctuation gone, hyphens for spaces."""
+    """As on GitHub: lower case, without punctuation, hyphens for spaces."""
     return re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
 
 
 def user_documents(root):
-    """Those that explain the program, with commands to type."""
+    """The documents that explain the program, with commands to type."""
     files = [root / "README.md", *sorted((root / "docs").glob("*.md"))]
     samples = sorted((root / "samples").glob("*/README.md"))
     return [Document(file, root) for file in [*files, *samples]]
@@ -78,7 +78,7 @@ def root_folder():
 
 
 def finish(errors, checked):
-    """Prints what is wrong and ends with the exit code that tells."""
+    """Prints the errors and exits with 1 if there are any, else 0."""
     for error in errors:
         print(error)
     print(f"{checked}: {len(errors)} wrong")

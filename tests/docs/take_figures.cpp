@@ -2,7 +2,7 @@
 // from drawn silhouettes and a drawn photograph, as repose measure --overlay draws them:
 //
 // take_figures PHOTOGRAPH FOLDER           writes them
-// take_figures PHOTOGRAPH FOLDER --check   compares them with those that are there
+// take_figures PHOTOGRAPH FOLDER --check   compares them with the existing ones
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -46,8 +46,7 @@ vision::Picture part_of(const vision::Picture& photograph, const Figure& figure)
   return is_whole ? photograph : vision::part_of(photograph, figure.part);
 }
 
-/// Silhouette of a heap ten grains high, with a bumpy edge and an apron a quarter as high as
-/// itself.
+/// Silhouette of a heap ten grains high, with a bumpy edge and an apron a quarter of its height.
 /// @param apron  length / half of the base
 vision::Picture heap_with_apron(double apron) {
   constexpr int kWidth = 1000, kBelow = 60;
@@ -70,7 +69,7 @@ vision::Picture heap_with_apron(double apron) {
   return picture;
 }
 
-/// A drawn photograph of a heap seven grains high, of which a layer of one or two has run out.
+/// A drawn photograph of a heap seven grains high, from which a layer of one or two has run out.
 vision::Picture photograph_with_apron() {
   testing::HeapScene scene = testing::hollow_apron(1);
   scene.form.grains_high = 7;
@@ -81,7 +80,7 @@ vision::Picture photograph_with_apron() {
       {.x = 0, .y = whole.height / 3, .width = whole.width, .height = whole.height * 11 / 20});
 }
 
-/// How much they differ on average, in grey levels; other libraries round a pixel here and there.
+/// Their mean difference in grey levels; other library versions round a few pixels differently.
 double difference(const fs::path& one, const fs::path& other) {
   const vision::Picture a = vision::read_picture(one), b = vision::read_picture(other);
   if (a.width != b.width || a.height != b.height) return 255;

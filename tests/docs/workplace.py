@@ -1,4 +1,4 @@
-"""The files that the documents' commands read, in a folder of their own."""
+"""Creates the files that the documents' commands read, in a separate folder."""
 
 import math
 import os
@@ -17,7 +17,7 @@ PHOTOGRAPHS = {"heap_01.jpg": "heap_01.jpg", "heap_02.jpg": "heap_02.jpg",
 
 DROPS = "drop_mm,rebound_mm\n500,9.1\n500,9.6\n500,9.4\n"
 
-# The same plane on two days, one of which reads 2 degrees less.
+# The same plane on two days, one of which gives angles 2 degrees smaller.
 TWO_DAYS = """mu_s,mu_r,Day,angle_deg
 .1,.01,Mon,18.2
 .3,.05,Mon,28.1
@@ -29,7 +29,7 @@ TWO_DAYS = """mu_s,mu_r,Day,angle_deg
 .2,.03,Tue,20.7
 """
 
-# Angles of a plane with some scatter over two factors, five levels each in part.
+# A plane in two factors with some scatter, at three levels of each.
 RUNS = """mu_s,mu_r,angle_deg
 .1,.01,18.1
 .1,.05,21.9
@@ -45,7 +45,7 @@ RUNS = """mu_s,mu_r,angle_deg
 
 
 def ellipsoid(half_axes_mm, rings=16, sectors=24):
-    """A closed surface of triangles, each three corners."""
+    """The triangles of a closed surface, each as three vertices."""
     def point(ring, sector):
         polar, azimuth = math.pi * ring / rings, 2 * math.pi * (sector % sectors) / sectors
         if ring in (0, rings):
@@ -74,7 +74,7 @@ def stl_of(triangles):
 
 
 def cone_ply(angle_deg=27, height=80, half_side=260, points=90_000):
-    """A cone on the ground, as a cloud of points in millimetres: places of a sequence that fills a square evenly."""
+    """A cone on the ground, as a point cloud in millimetres, from a sequence that fills a square evenly."""
     golden = 1.32471795724474602596
     slope = math.tan(math.radians(angle_deg))
     body = bytearray()
@@ -88,7 +88,7 @@ def cone_ply(angle_deg=27, height=80, half_side=260, points=90_000):
 
 
 def silhouette_png(width=960, height=640, slope=0.45):
-    """A black heap with straight flanks on white, as repose render draws them."""
+    """A black heap with straight flanks on white, as drawn by repose render."""
     foot = height - 120
     top = foot - int(0.4 * width * slope)
     rows = bytearray()
@@ -106,7 +106,7 @@ def silhouette_png(width=960, height=640, slope=0.45):
 
 
 def dropped_height_mm(t, restitution):
-    """Of a grain that is held for a tenth of a second, falls 200 mm and bounces."""
+    """Height of a grain that is held for a tenth of a second, falls 200 mm and bounces."""
     gravity, held_s = 9806.65, 0.1
     speed = math.sqrt(2 * gravity * 200)
     t -= held_s
@@ -128,7 +128,7 @@ def dropped_grain_avi(restitution, mm_per_px=2.6, frames_per_s=60):
 
 
 def rolled_grain_avi(frames_per_s=60, slope=math.radians(20)):
-    """A grain that is let go after 6 frames, reaches the flat after 20 more and rests after 20 more."""
+    """A grain released after 6 frames that reaches the flat after 20 more and rests after 20 more."""
     def place(k):
         k = max(0, k - 6)
         left = 50 * max(0.0, 1 - (k / 20) ** 2)
@@ -139,7 +139,7 @@ def rolled_grain_avi(frames_per_s=60, slope=math.radians(20)):
 
 
 def tilted_plate_avi(frames_per_s=30, width=160, height=120, rate=math.radians(8), onset=math.radians(12)):
-    """A bar on a plate that turns about its left end after 10 frames, until the bar slides towards it."""
+    """A bar on a plate that turns about its left end from frame 10 on; the bar finally slides towards it."""
     hinge_x, hinge_y = 10.0, 100.0
 
     def cover(inside):
@@ -170,7 +170,7 @@ def tilted_plate_avi(frames_per_s=30, width=160, height=120, rate=math.radians(8
 
 
 def grain_avi(place, frames_per_s, width=160, height=120, frames=60):
-    """A dark disc before a light wall, `place` of it right and up from the floor."""
+    """A dark disc in front of a light wall; `place` gives its position to the right and above the floor."""
     radius = 5.0
     floor = height - 14
 
@@ -206,7 +206,7 @@ def grown_heap_avi(frames_per_s=10, width=320, height=200, slope=0.45):
 
 
 def avi(frame, frames_per_s, width, height, frames):
-    """A film without compression; `frame` has the rows from below, blue, green and red."""
+    """An uncompressed film; `frame` returns the rows from the bottom up, in blue, green and red."""
     def chunk(kind, data):
         return kind + struct.pack("<I", len(data)) + data
 
@@ -226,7 +226,7 @@ def avi(frame, frames_per_s, width, height, frames):
 
 
 def packed_cone(angle_deg, height=30.0, radius=2.0):
-    """Spheres in close-packed, wavy layers in a cone on a plate, each a little off its place: x, y, z in mm."""
+    """Spheres in close-packed, wavy layers in a cone on a plate, slightly displaced: x, y, z in mm."""
     chance = random.Random(7)
     spheres, layer, z = [], 0, radius
     while z < height:
@@ -260,13 +260,13 @@ def particle_vtu(spheres, radius=0.002):
             + array("Points", 3, places) + "</Points></Piece></UnstructuredGrid></VTKFile>\n")
 
 
-# What a bench may have measured, a column each; the protocol's are those of a new study.
+# Possible bench readings by column; the protocol's numbers are those of a new study.
 BENCH = {"drop_mm": (500, 500, 500), "rebound_mm": (150, 162, 156), "angle_deg": (17.4, 18.1, 17.9),
          "incline_deg": (20, 20, 20), "released_mm": (150, 150, 150), "stopped_mm": (410, 440, 425)}
 
 
 def go_to_the_bench(study):
-    """Fills in the sheets of a new study, and makes it one of seconds: soft grains and no heap."""
+    """Fills in the sheets of a new study, and makes it run in seconds: soft grains and no heap."""
     for sheet in study.with_suffix("").glob("*.csv"):
         columns = sheet.read_text(encoding="utf-8").split()[0].split(",")
         rows = [",".join(str(BENCH[column][row]) for column in columns) for row in range(3)]
@@ -280,13 +280,13 @@ def go_to_the_bench(study):
 
 
 def environment(repose):
-    """In which `repose` is the program under test."""
+    """An environment in which `repose` is the program under test."""
     folder = str(pathlib.Path(repose).resolve().parent)
     return {**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]}
 
 
 def prepare(folder, root, repose):
-    """Fills a folder with a sample of all that the documents name as input."""
+    """Fills a folder with samples of everything that the documents name as input."""
     samples = root / "samples"
     (folder / "samples").symlink_to(samples)
     (folder / "photos").mkdir()

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A white picture holds no heap: the library must say so and give no number.
+/// A white picture contains no heap: the library must say so and give no number.
 bool refuses_a_blank_picture() {
   constexpr int kWidth = 320;
   constexpr int kHeight = 240;
@@ -47,7 +47,7 @@ bool falls() {
   return fallen_m > .049 && fallen_m < .0491;
 }
 
-/// Soft rough balls, few and fast: heaps of a fifth of a second.
+/// Soft rough balls, few and fast: a heap takes a fifth of a second.
 constexpr const char* kBalls = R"([particle]
 size_mm = [18, 18, 18]
 spheres = 1
@@ -93,7 +93,7 @@ bool simulates_a_heap(const fs::path& folder) {
          repose::read_picture(folder / "heap.png").width == 640;
 }
 
-/// From photographs of a bench's heaps to a coefficient, and a page that tells of it.
+/// From photographs of heaps to a coefficient, and a report of it.
 bool calibrates_from_pictures(const fs::path& photos, const fs::path& folder) {
   std::ofstream(folder / "study.toml")
       << kBalls << "measured = { pictures = ['" << (photos / "heap_01.jpg").string() << "', '"
@@ -115,7 +115,7 @@ bool calibrates_from_pictures(const fs::path& photos, const fs::path& folder) {
          repose::read_result(request.folder) == result && fs::file_size(page) > 100'000;
 }
 
-/// A study in which nothing is sought is refused with a reason, and a rebound is a restitution.
+/// A study without free coefficients is refused with a reason, and a rebound gives a restitution.
 bool refuses_a_study_without_unknowns(const fs::path& folder) {
   try {
     repose::run_study({.study = folder / "heap.toml",

@@ -13,8 +13,8 @@ namespace {
 using repose::testing::nut_heap;
 using repose::testing::sphere_scene;
 
-/// How far the mask's upper edge lies above the true one in each column, px, across the edge where
-/// it is steep. The mask knows its edge to half a pixel.
+/// How far the mask's upper edge lies above the true one in each column, px, measured across the
+/// edge where it is steep. The mask resolves its edge to half a pixel.
 std::vector<double> edge_errors(const Scene& scene, const Camera& camera, const PictureSize& size,
                                 Shown shown) {
   const Rendered drawn = renderer().draw(scene, camera, size, SilhouetteStyle{.shown = shown});
@@ -42,7 +42,7 @@ double mean(const std::vector<double>& values) {
 
 constexpr double kFraction = .98;
 
-/// Share of columns whose error is within half a pixel of rounding and a quarter of a pixel.
+/// Fraction of columns whose error is within half a pixel of rounding plus a quarter of a pixel.
 double fraction_within_a_quarter(const std::vector<double>& errors) {
   const auto good = std::count_if(errors.begin(), errors.end(),
                                   [](double error) { return std::abs(error) <= .75; });
@@ -56,9 +56,9 @@ TEST(Detail, AHeapsEdgeIsDrawnWithinAQuarterOfAPixel) {
       const auto errors =
           edge_errors(heap, OrthographicCamera{.azimuth_rad = .7}, {width, width / 2}, shown);
       ASSERT_GT(errors.size(), static_cast<std::size_t>(width) / 2);
-      // Rounding is even-handed: its mean is 0 to .29 / sqrt(columns).
+      // Rounding is unbiased: its mean is 0 to within .29 / sqrt(columns).
       EXPECT_NEAR(mean(errors), 0, .08) << width;
-      // The rest are corners between two grains, where the edge has no one slope.
+      // The rest are corners between two grains, where the edge has no unique slope.
       EXPECT_GT(fraction_within_a_quarter(errors), kFraction) << width;
     }
   }

@@ -9,13 +9,13 @@
 
 namespace repose::render {
 
-/// One renderer for all tests of a program: making one takes a while.
+/// One renderer for all tests of a program: creating one takes a while.
 inline Renderer& renderer() {
   static Renderer shared;
   return shared;
 }
 
-/// What a mask shows: how many pixels, and their middle.
+/// The pixels of a mask: their number and centroid.
 struct Blob {
   double pixels = 0;
   double x = 0;

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 constexpr double kGravity_m_s2 = 9.81, kRadius_m = .005;
 
-/// A ball that falls from .1 m onto a plane without end, at a time since its release.
+/// A ball that falls from .1 m onto an infinite plane, at a time since its release.
 Scene falling(double time_s) {
   Scene scene{.shapes = {dem::sphere_shape(kRadius_m)}, .grains = {}, .walls = {}};
   PlacedGrain ball;
@@ -27,7 +27,7 @@ Scene falling(double time_s) {
   return scene;
 }
 
-/// Its states, so far apart.
+/// Its states at this interval.
 RunStates states_of_fall(double interval_s) {
   constexpr double kFall_s = .135;
   RunStates states;
@@ -141,7 +141,7 @@ TEST(FilmedRun, ShuttersThatCannotBeAreRefused) {
   EXPECT_THAT(error_of([] { FilmedRun(RunStates{}, {}); }), HasSubstr("no states"));
 }
 
-/// The rows that a ball covers in the middle column, by what differs from a picture without it.
+/// The number of rows that a ball covers in the middle column, compared with a picture without it.
 int rows_touched(const vision::Picture& with, const vision::Picture& without) {
   int rows = 0;
   for (int row = 0; row < with.height; ++row) {

@@ -13,7 +13,7 @@
 namespace repose::render {
 namespace {
 
-/// How far two pictures are apart: share of bytes that differ by more than `step`, and the mean.
+/// Difference of two pictures: fraction of bytes that differ by more than `step`, and the mean.
 struct Difference {
   double fraction = 1;
   double mean = 255;
@@ -31,8 +31,8 @@ Difference difference(const vision::Picture& a, const vision::Picture& b, int st
   return {far / bytes, sum / bytes};
 }
 
-/// Compares with the stored picture. What was drawn is kept beside the test's other files, to be
-/// looked at, and to replace the stored one when a change was meant.
+/// Compares with the stored picture. The drawn one is kept with the test's other files, for
+/// inspection and to replace the stored one after an intended change.
 Difference against_golden(const std::string& name, const vision::Picture& drawn, int step) {
   const auto now = std::filesystem::path(::testing::TempDir()) / ("repose_" + name);
   vision::write_picture(now, drawn);
@@ -51,8 +51,8 @@ const Scene& heap() {
   return scene;
 }
 
-// Another processor or version of the driver may round an edge to the other side: a pixel in a
-// thousand is one in thirty of the edge.
+// Another processor or driver version may round an edge the other way: one pixel in a thousand is
+// one in thirty of the edge.
 constexpr double kEdgePixels = .001;
 
 TEST(Golden, Silhouette) {

@@ -42,7 +42,7 @@ TEST(Hidden, MostGrainsInTheMiddleOfALargeHeapAreHidden) {
 }
 
 TEST(Hidden, AGrainIsHiddenWhereItsWholeDiscLiesBehindAnother) {
-  // At .75 the corner of the small disc's box stands out of the large disc, at .81 so does the
+  // At .75 the corner of the small disc's box sticks out of the large disc; at .81 so does the
   // disc.
   for (const double away : {0.0, .75, .81}) {
     Scene scene = testing::sphere_scene(.01, {{0, 0, 0}});

@@ -41,7 +41,7 @@ TEST(Photo, NoiseHasTheStrengthAskedFor) {
   const auto grainy = photo(heap, noisy).picture.bgr;
   double sum = 0, squares = 0, count = 0;
   for (std::size_t k = 0; k < clean.size(); ++k) {
-    if (clean[k] < 100) continue;  // the curve of sRGB is steep below
+    if (clean[k] < 100) continue;  // below, the sRGB curve is steep
     // From bytes back to light: 2.4 / 1.055 * ... is close to (v / 255)^2.2 here.
     const auto light = [](double byte) { return std::pow(byte / 255, 2.2); };
     const double value = light(clean[k]);
@@ -63,10 +63,10 @@ TEST(Photo, TheMaskIsThatOfTheSilhouetteWhereNoWallHides) {
   const auto black = renderer().draw(heap, camera, kSmall, SilhouetteStyle{}).grain_mask;
   int different = 0;
   for (std::size_t k = 0; k < seen.size(); ++k) different += seen[k] != black[k] ? 1 : 0;
-  // The plate covers nothing from above, but the nuts' lowest points dip into it.
+  // The plate hides nothing from above, but the nuts' lowest points dip into it.
   EXPECT_LT(different, 60);
 
-  Scene hidden = heap;  // an upright board before the heap
+  Scene hidden = heap;  // an upright board in front of the heap
   hidden.walls.push_back(
       {.shape = dem::Box{.half_size = {1, .001, 1}}, .pose = {.position = {0, -.4, 0}}});
   EXPECT_EQ(std::isnan(blob_of(renderer().draw(hidden, camera, kSmall, PhotoStyle{.passes = 1})).x),
@@ -113,7 +113,7 @@ TEST(Photo, TheUnchangedMeasurementFindsTheHeap) {
   ASSERT_TRUE(measured.angle_rad) << measured.reason;
   ASSERT_TRUE(measured.ground && truth.ground);
   EXPECT_NEAR(*measured.angle_rad, angle, 3 * std::numbers::pi / 180);
-  // A person too would take a line between the middle plane's ground and the plate's front edge.
+  // A person too would choose a line between the middle plane's ground and the plate's front edge.
   const auto front = view_of(heap, camera, size).project({0, -.3, -.002});
   for (const double y : {measured.ground->from.y, measured.ground->to.y}) {
     EXPECT_GT(y, truth.ground->from.y - 2);

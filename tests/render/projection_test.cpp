@@ -18,7 +18,7 @@ using repose::testing::sphere_scene;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// At (0, -2, 0.1), looking along +y; 36 mm to a picture's width makes the focal length the width.
+/// At (0, -2, 0.1), looking along +y; 36 mm makes the focal length equal to the picture's width.
 PerspectiveCamera plain_camera() { return {.position_m = {0, -2, .1}, .focal_mm = 36}; }
 
 const Scene& far_grain() {
@@ -84,7 +84,7 @@ TEST(Projection, WhatIsDrawnLiesWhereTheFormulaPutsIt) {
       const auto seen = view.project(place);
       const Blob blob = blob_of(renderer().draw(scene, camera, {1200, 800}, SilhouetteStyle{}));
       ASSERT_GT(blob.pixels, 30) << k1;
-      // Small spheres: their picture's middle is that of their centre to a tenth of a pixel.
+      // Small spheres: the middle of their image is that of their centre to a tenth of a pixel.
       EXPECT_NEAR(blob.x, seen->x, .15) << k1;
       EXPECT_NEAR(blob.y, seen->y, .15) << k1;
     }
@@ -162,7 +162,7 @@ TEST(Projection, ACameraOnAStandSeesTheWholeHeap) {
       wider.focal_mm /= 2;
       const Blob wide = blob_of(renderer().draw(heap, wider, size, SilhouetteStyle{}));
       EXPECT_NEAR(all.pixels, 4 * wide.pixels, .02 * all.pixels);
-      EXPECT_NEAR(all.x, 300, 20);  // a heap of few nuts is not even
+      EXPECT_NEAR(all.x, 300, 20);  // a heap of few nuts is not symmetric
     }
   }
 }

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
-/// 1 mm to a pixel, the origin in the middle of the picture.
+/// 1 mm per pixel, the origin in the middle of the picture.
 OrthographicCamera plain_camera(double azimuth_rad) {
   return {.azimuth_rad = azimuth_rad, .mm_per_px = 1, .middle_m = Vector::Zero()};
 }
@@ -32,7 +32,7 @@ TEST(Silhouette, ASphereHasItsAreaAndItsPlaceAtEveryAzimuth) {
   for (const double azimuth : {0.0, .3, 1.2, kPi / 2, 2.9, -1.7}) {
     const Blob blob =
         blob_of(renderer().draw(scene, plain_camera(azimuth), {400, 300}, SilhouetteStyle{}));
-    // A circle of 100 px has 31416 pixels; where its edge crosses pixels chance adds about 10.
+    // A circle of 100 px radius has 31416 pixels; pixels on its edge add a random 10 or so.
     EXPECT_NEAR(blob.pixels, kPi * 100 * 100, 60) << azimuth;
     const double right = 1e3 * (place.x() * std::cos(azimuth) + place.y() * std::sin(azimuth));
     EXPECT_NEAR(blob.x, 200 + right, .05) << azimuth;
@@ -64,7 +64,7 @@ TEST(Silhouette, FromBehindItIsItsMirrorImage) {
       if (front.grain_mask[400 * y + x] != back.grain_mask[400 * y + 399 - x]) ++different;
     }
   }
-  // Only pixels whose middle an edge meets to the last bit may differ.
+  // Only pixels whose middle lies on an edge to the last bit may differ.
   EXPECT_LE(different, 5);
 }
 
@@ -99,7 +99,7 @@ TEST(Silhouette, IsTheUnionOfItsGrainsThoughHiddenOnesAreNotDrawn) {
     const auto whole = renderer().draw(heap, camera, {300, 200}, SilhouetteStyle{}).grain_mask;
     int different = 0;
     for (std::size_t k = 0; k < whole.size(); ++k) different += whole[k] != together[k] ? 1 : 0;
-    EXPECT_LE(different, 3) << mm_per_px;  // an edge through a pixel's very middle
+    EXPECT_LE(different, 3) << mm_per_px;  // an edge exactly through a pixel's middle
   }
 }
 
@@ -134,7 +134,7 @@ TEST(Silhouette, IsMeasuredByTheSameCodeAsPhotographs) {
                                          SilhouetteStyle{});
   const auto measured = vision::measure_repose_angle(drawn.picture);
   ASSERT_TRUE(measured.angle_rad) << measured.reason;
-  // The layers' steps are a third of what the interval allows; the cone itself is exact.
+  // The layers' steps take a third of the tolerance; the cone itself is exact.
   EXPECT_NEAR(*measured.angle_rad, angle, 2 * kPi / 180);
 }
 

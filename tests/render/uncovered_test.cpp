@@ -45,10 +45,10 @@ TEST(CoveredArea, HidesADiscByThePixelsWhoseMiddlesLieInIt) {
   EXPECT_FALSE(covered.hides_disc({5, 3}, 2.6));
 }
 
-/// What is drawn of the grains alone, all of them or what is not covered.
+/// Draws the grains alone: all of them, or only the uncovered ones.
 class Uncovered : public ::testing::Test {
  protected:
-  /// The whole mask, either way, and how much of it is covered before anything is drawn.
+  /// The whole mask, drawn either way, and the fraction of it covered before anything is drawn.
   struct Masks {
     std::vector<std::uint8_t> of_all;
     std::vector<std::uint8_t> of_uncovered;
@@ -83,7 +83,7 @@ TEST_F(Uncovered, LooksAsIfAllHadBeenDrawn) {
     for (const int width : {40, 320, 1920}) {
       const Masks seen = masks(heap, {.azimuth_rad = .4 + width}, {width, width * 9 / 16}, shown);
       EXPECT_EQ(seen.of_all, seen.of_uncovered) << width;
-      EXPECT_GT(seen.covered_fraction, width > 40 ? .4 : -1) << width;  // else the same in vain
+      EXPECT_GT(seen.covered_fraction, width > 40 ? .4 : -1) << width;  // else the test is vacuous
     }
   }
 }

@@ -1,4 +1,4 @@
-// Who is answered: nobody but the page of the person who has started the studio.
+// Only the page of the person who started the studio gets answers.
 #include "studio/access.h"
 
 #include <set>
@@ -39,7 +39,7 @@ TEST(Access, RefusesWhoDoesNotKnowTheToken) {
         refusal({.host = "127.0.0.1:8080", .origin = {}, .query_token = {}, .cookies = cookie}),
         HasSubstr("token"));
   }
-  // Of another studio, at another port.
+  // The cookie of another studio, on another port.
   const std::string other = std::string("repose_8081=") + kToken;
   EXPECT_THAT(
       refusal({.host = "127.0.0.1:8080", .origin = {}, .query_token = {}, .cookies = other}),

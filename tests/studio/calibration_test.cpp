@@ -1,5 +1,5 @@
-// Calibrations over HTTP: started, watched, stopped, killed, gone on with; what the folder says of
-// them afterwards.
+// Calibrations over HTTP: started, watched, stopped, killed, resumed; the folder's state
+// afterwards.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -58,7 +58,7 @@ class StudioCalibrations : public ::testing::Test {
     return {};
   }
 
-  /// Until it has made some runs, so that it can be stopped in the midst.
+  /// Waits until some runs are done, so that it can be stopped halfway.
   void wait_for_runs() const {
     while (studio_.get(kState).at("runs") < 3) {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -85,7 +85,7 @@ TEST_F(StudioCalibrations, OneFromTheFormToTheReport) {
   EXPECT_THAT(rules, HasSubstr("sandbox"));
   EXPECT_THAT(rules, Not(HasSubstr("allow-same-origin")));
   EXPECT_EQ(report->get_header_value_count("Content-Security-Policy"), 1U);
-  // As the command line writes it.
+  // Identical to the command line's.
   EXPECT_TRUE(report->body == studio_.text("peas_calibration/report.html"));
   const auto result = studio_.client->Get("/files/calibration?study=peas.toml&name=result.json");
   EXPECT_EQ(result->body, studio_.text("peas_calibration/result.json"));
@@ -97,7 +97,7 @@ TEST_F(StudioCalibrations, OneFromTheFormToTheReport) {
       studio_.client->Get("/files/calibration?study=peas.toml&name=export/yade/README.txt")->status,
       200);
   EXPECT_EQ(studio_.post("/api/export?study=peas.toml&to=edam", {}).at("is_done"), false);
-  // Other readings make it another study.
+  // Different readings make it a different study.
   studio_.folder.write("peas/tilts.csv", std::string("angle_deg\n25\n26\n25.5\n"));
   EXPECT_EQ(studio_.get(kState).at("state"), "changed");
 }
@@ -133,7 +133,7 @@ TEST_F(StudioCalibrations, TheStudiosEndEndsWhatItStartedAndTheNextGoesOn) {
   EXPECT_FALSE(base::is_locked_by_another(
       calibrate::lock_file_in(studio_.folder.path() / "peas_calibration")));
   studio_.serve();
-  // Those that waited, too.
+  // Queued ones, too.
   EXPECT_EQ(ended("beans").at("state"), "done");
   EXPECT_EQ(studio_.get(kState).at("state"), "finished");
   studio_.end();
@@ -141,7 +141,7 @@ TEST_F(StudioCalibrations, TheStudiosEndEndsWhatItStartedAndTheNextGoesOn) {
   EXPECT_THAT(studio_.get("/api/tasks").at("tasks"), IsEmpty());
 }
 
-/// `repose studio` as a process of its own, which may be killed.
+/// `repose studio` as a separate process, which can be killed.
 class StudioProcess {
  public:
   explicit StudioProcess(const std::filesystem::path& folder) {
@@ -160,7 +160,7 @@ class StudioProcess {
   StudioProcess(StudioProcess&&) = delete;
   StudioProcess& operator=(StudioProcess&&) = delete;
 
-  /// Asks it to calibrate.
+  /// Requests a calibration.
   void calibrate() const {
     std::string address;
     for (int k = 0; k < 500 && !address.ends_with('\n'); ++k) {
@@ -235,7 +235,7 @@ TEST_F(StudioCalibrations, SeveralWaitForEachOtherAndCanBeTakenOut) {
     fill_in(name);
   }
   studio_.post(kTask, {});
-  studio_.post(kTask, {}, 400);  // it is in work
+  studio_.post(kTask, {}, 400);  // already running
   studio_.post(with_study(kTask, "beans"), {});
   const Json tasks = studio_.post(with_study(kTask, "rice"), {}).at("tasks");
   ASSERT_EQ(tasks.size(), 3U);
@@ -284,7 +284,7 @@ TEST_F(StudioCalibrations, APlanIsThatOfTheCommandLine) {
   EXPECT_EQ(plan.at("hash"), studio_.get("/api/study?study=peas.toml").at("hash"));
   EXPECT_EQ(plan.at("experiments").at(0).at("measured"), true);
   EXPECT_EQ(plan, Json::parse(studio_.text("peas_calibration/plan.json")));
-  // Its simulations are no calibration that was begun.
+  // Its simulations do not count as a started calibration.
   EXPECT_GT(studio_.get(kState).at("runs"), 0);
   EXPECT_EQ(studio_.get(kState).at("state"), "none");
 }
@@ -326,7 +326,7 @@ TEST_F(StudioCalibrations, OnlyItsOwnFilesAreHandedOut) {
               400)
         << name;
   }
-  // A link in the place of the calibration's folder leads nowhere.
+  // A symbolic link in place of the calibration's folder is not followed.
   std::filesystem::remove_all(studio_.folder.path() / "peas_calibration");
   std::filesystem::create_directory_symlink(other.path(),
                                             studio_.folder.path() / "peas_calibration");

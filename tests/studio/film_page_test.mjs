@@ -1,15 +1,15 @@
-// Films of a drop, a roll and a tilt at the studio's page, by clicks, drags, drops and keys alone:
+// Films of a drop, a roll and a tilt on the studio's page, using only clicks, drags, drops and keys:
 // node film_page_test.mjs REPOSE CHROMIUM FILMS [PICTURES]
 //
 //   REPOSE    the program
 //   CHROMIUM  the browser
 //   FILMS     a folder with drop_1.mp4, roll_1.mp4 and tilt_1.mp4
-//   PICTURES  a folder for pictures of the page, for people to look at
+//   PICTURES  a folder for screenshots of the page, for people to look at
 //
-// Films are dropped onto the page and tracked, looked through by the arrow keys, a bounce is struck out and
-// accepted again; a length is drawn and said; readings go into a study's sheet, or it is told why not, all
-// with the keyboard alone. Nothing is fetched from elsewhere, no error is told, axe finds nothing
-// serious, nothing is wider than a telephone.
+// Films are dropped onto the page and tracked, and stepped through with the arrow keys; a bounce is struck
+// out and accepted again with the keyboard; a length is drawn and its value typed; readings go into a
+// study's sheet, or the page says why not. Nothing is fetched from elsewhere, no error is reported, axe
+// finds nothing serious, nothing is wider than a phone.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join, resolve} from 'node:path';
@@ -22,7 +22,7 @@ const choose = async (page, name) => {
   await until(page, (wanted) => document.querySelector('.picture h2').textContent === wanted, name);
 };
 
-// Types into a field by its label, and leaves it.
+// Types into the field with this label and presses Enter.
 const say = async (page, label, text) => {
   const field = await page.waitForSelector(`::-p-xpath(//label[starts-with(normalize-space(), '${label}')]/input)`);
   await field.click({count: 3});
@@ -42,7 +42,7 @@ const startStudy = async (page) => {
   await click(page, 'Pictures');
 };
 
-// A drop, tracked as it comes; frames by the arrow keys.
+// A drop, tracked on arrival; frames stepped with the arrow keys.
 const lookThrough = async (page) => {
   await choose(page, 'drop_1.mp4');
   await until(page, () => /^0\.6\d\d\s±\s/.test(document.querySelector('.result .angle')?.textContent ?? ''));
@@ -55,13 +55,13 @@ const lookThrough = async (page) => {
   for (let step = 0; step < 5; ++step) await page.keyboard.press('ArrowRight');
   assert.notEqual(await at(), first);
   await until(page, () => document.querySelector('.frames image').href.baseVal.includes('number=5'));
-  // To the first bounce, where the grain was seen.
+  // Go to the first bounce, where the grain was seen.
   await (await page.$('.bounces .link')).click();
   await page.waitForSelector('.frames .grain');
   assert.match(await at(), /Frame at 0\.[56]\d\d s/);
 };
 
-// Into the sheet of a study, which states another height of fall first.
+// Into the sheet of a study, which first states a different drop height.
 const giveReadings = async (page, folder) => {
   const sheet = join(folder, 'peas/drops.csv');
   await page.focus("[aria-label='Bounce 1 counts']");
@@ -90,7 +90,7 @@ const giveReadings = async (page, folder) => {
   await until(page, () => document.querySelector('.to-sheet [role=status]').textContent.includes('One reading put into peas/drops.csv'));
   assert.match(readFileSync(sheet, 'utf8'), /^drop_mm,rebound_mm,sample,in_air,drop_uncertainty_mm\n20\d\.\d+,7\d\.\d+,drop_1,0,\d\.\d+\n$/);
   await lookAt(page, 'film_drop', pictures);
-  // The study's page has it.
+  // The study's page shows it.
   await click(page, 'Study');
   await until(page, () => [...document.querySelectorAll("[aria-label='drop'] td input")].some(({value}) => value === 'drop_1'));
   await click(page, 'Pictures');

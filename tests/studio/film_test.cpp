@@ -1,4 +1,4 @@
-// Films of drops, rolls and tilts, over the studio's addresses.
+// Films of drops, rolls and tilts over the studio's HTTP interface.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -116,7 +116,7 @@ TEST_F(FilmsOfBench, GiveTheSheetOfAStudyTheirReadings) {
   const Json first = track("drop_1.mp4", {{"experiment", "drop"}});
   EXPECT_EQ(to_sheet(first, {1}).at("sheet"), "peas/drops.csv");
   to_sheet(track("drop_2.mp4", {{"experiment", "drop"}}), {1});
-  // Given once more, it is in its place.
+  // Submitted again, it keeps its place.
   to_sheet(first, {1});
   const std::string sheet = studio_.text("peas/drops.csv");
   EXPECT_EQ(std::ranges::count(sheet, '\n'), 3) << sheet;
@@ -124,17 +124,17 @@ TEST_F(FilmsOfBench, GiveTheSheetOfAStudyTheirReadings) {
   EXPECT_THAT(sheet, HasSubstr(",drop_1,0,"));
   to_sheet(track("tilt_1.mp4", {{"experiment", "tilt"}}), Json::array());
   EXPECT_THAT(studio_.text("peas/tilts.csv"), HasSubstr(",tilt_1"));
-  // The study takes them.
+  // The study accepts them.
   EXPECT_EQ(studio_.get("/api/study?study=peas.toml").at("faults"), Json::array());
 }
 
 TEST_F(FilmsOfBench, WriteNothingIntoASheetThatTheyDoNotFit) {
   const Json found = track("drop_1.mp4", {{"experiment", "drop"}});
   const std::string empty = studio_.text("peas/drops.csv");
-  // A later bounce falls from another height than the study's.
+  // A later bounce falls from a height other than the study's.
   EXPECT_THAT(to_sheet(found, {2}, 400).at("error").get<std::string>(), HasSubstr("drop_mm"));
   EXPECT_EQ(studio_.text("peas/drops.csv"), empty);
-  // Heights that were read in air do not go with those of a film.
+  // Heights that were read in air cannot be mixed with those of a film.
   const Json study = studio_.get("/api/study?study=peas.toml");
   studio_.put("/api/sheet?study=peas.toml&experiment=drop",
               {{"columns", {"drop_mm", "rebound_mm"}},

@@ -1,4 +1,4 @@
-// What hands do at the studio's page, and eyes: starting it, clicks, drags, drops, looking.
+// User actions on the studio's page: starting it, clicks, drags, drops, looking.
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {mkdirSync, mkdtempSync, readFileSync, rmSync} from 'node:fs';
@@ -12,8 +12,8 @@ export const kPatience_ms = 120_000;
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const studios = [];
 
-// From the folder above, as one would type it: what the page shows then has no place of this machine.
-// With `room_kb` no file can be written that is larger, as on a disk that is full.
+// Started from the parent folder, as a user would, so that the page shows no path of this machine.
+// With `room_kb`, no larger file can be written, as on a full disk.
 export const startStudio = (repose, folder, {room_kb} = {}) => new Promise((resolve, reject) => {
   const limit = room_kb ? `trap '' XFSZ; ulimit -f ${room_kb * 1024 / 512};` : '';
   const studio = spawn('sh', ['-c', `${limit} exec "$0" studio "$1" --no-browser`, absolute(repose), basename(folder)], {cwd: dirname(folder)});
@@ -27,7 +27,7 @@ export const startStudio = (repose, folder, {room_kb} = {}) => new Promise((reso
   studio.on('exit', (code) => reject(new Error(`repose studio ended with ${code}: ${complaint}`)));
 });
 
-// Its exit code.
+// Returns its exit code.
 export const end = (studio, signal) => {
   studio.removeAllListeners('exit');
   const ended = new Promise((resolve) => studio.on('exit', (code) => resolve(code)));
@@ -41,7 +41,7 @@ const endAll = async () => {
   }
 };
 
-// One sitting, with a browser and an empty folder of that name. Nothing is left, however it ends.
+// One session, with a browser and an empty folder of that name. Nothing is left behind, however it ends.
 export const sitDown = async (chromium, name, pictures, sit) => {
   const above = mkdtempSync(join(tmpdir(), 'repose-studio-'));
   const folder = join(above, name);
@@ -72,7 +72,7 @@ export const drop = async (page, files) => {
 
 export const textOf = (page, selector) => page.$eval(selector, (element) => element.textContent);
 export const button = (page, name) => page.waitForSelector(`::-p-xpath(//button[normalize-space()='${name}'])`);
-// After a change of the window's size things still move.
+// Elements still move after the window is resized.
 const atRest = (element) => element.evaluate(async (moved) => {
   for (let last = '', same = 0; same < 3; ) {
     await new Promise(requestAnimationFrame);
@@ -82,7 +82,7 @@ const atRest = (element) => element.evaluate(async (moved) => {
   }
 });
 export const click = async (page, name) => {
-  // One that cannot be pressed yet is waited for, as a hand would.
+  // Waits for a disabled button, as a user would.
   const found = await page.waitForSelector(`::-p-xpath(//button[normalize-space()='${name}'][not(@disabled)])`);
   await atRest(found);
   await found.click();
@@ -105,7 +105,7 @@ export const choose = async (page, name) => {
   await page.waitForSelector('.viewer svg .flank');
 };
 
-// Where a point of the picture lies on the screen.
+// Screen position of a point in the picture.
 export const onScreen = (page, x, y, within = '.viewer svg') => page.$eval(within, (svg, px, py) => {
   const at = new DOMPoint(px, py).matrixTransform(svg.getScreenCTM());
   return [at.x, at.y];
@@ -126,7 +126,8 @@ const serious = async (page) => {
     .map(({id, nodes}) => `${id}: ${nodes.map(({html}) => html.slice(0, 120)).join(' | ')}`);
 };
 
-// On a desk and on a telephone, light and dark: all of it, and as a figure of a document the window alone.
+// On a desktop and a phone, light and dark: screenshots of the whole page, and of the window alone as a
+// figure for the documents.
 export const lookAt = async (page, name, pictures) => {
   for (const scheme of ['light', 'dark']) {
     await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: scheme}]);

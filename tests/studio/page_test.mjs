@@ -1,17 +1,17 @@
-// A sitting at the studio's page, by clicks, drags, drops and keys alone:
+// A session on the studio's page, using only clicks, drags, drops and keys:
 // node page_test.mjs REPOSE CHROMIUM PHOTOS [PICTURES]
 //
 //   REPOSE    the program
 //   CHROMIUM  the browser
 //   PHOTOS    a folder of photographs of heaps
-//   PICTURES  a folder for pictures of the page, for people to look at
+//   PICTURES  a folder for screenshots of the page, for people to look at
 //
 // Photographs are dropped onto the page and measured; one is corrected by hand, undone, corrected again,
-// saved and, by the keyboard alone, forgotten; the set is looked at, sorted and downloaded, and set against
-// set compared, with the bytes that the command line gives. Nothing is
-// fetched from elsewhere, no error is told, axe finds nothing serious, nothing is wider than a telephone.
-// A studio that ends is noticed. Two windows do not write over each other, files that are too large and
-// disks that are full are told and leave nothing behind, and a folder has one studio at a time.
+// saved and, with the keyboard alone, reset; the set is viewed, sorted and downloaded, and sets are
+// compared, giving the same bytes as the command line. Nothing is fetched from elsewhere, no error is
+// reported, axe finds nothing serious, nothing is wider than a phone. The page notices when the studio
+// ends. Two windows do not overwrite each other's work, files that are too large and full disks are
+// reported and leave nothing behind, and a folder has one studio at a time.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, readdirSync, rmSync, truncateSync} from 'node:fs';
@@ -35,7 +35,7 @@ const correctByHand = async (page, folder, name) => {
   assert.equal(existsSync(join(folder, `${name}.repose.toml`)), false);
   await click(page, 'Undo');
   await until(page, (was) => document.querySelector('.result .angle').textContent === was, before);
-  // A label that is no heap.
+  // A label that is not part of the heap.
   await click(page, 'Leave out');
   await drag(page, [size[0] * 0.02, size[1] * 0.02], [size[0] * 0.12, size[1] * 0.1]);
   await page.waitForSelector('.said .exclude');
@@ -45,7 +45,7 @@ const correctByHand = async (page, folder, name) => {
   assert.equal(existsSync(join(folder, `${name}.repose.toml`)), true);
 };
 
-// A brush over what lies beside the heap and over the heap; undone, painted again, saved as a mask.
+// Paints beside the heap and on it; undone, painted again, saved as a mask.
 const paint = async (page, folder, name) => {
   await choose(page, name);
   const [width, height] = await page.$eval('.viewer image', (image) => [Number(image.getAttribute('width')), Number(image.getAttribute('height'))]);
@@ -81,7 +81,7 @@ const forgetByKeys = async (page, folder, name) => {
   await page.focus('.fields summary');
   await page.keyboard.press('Enter');
   await page.keyboard.press('Tab');
-  await page.keyboard.type('10, 10, 90, 90', {delay: 250});  // the folder is looked at meanwhile
+  await page.keyboard.type('10, 10, 90, 90', {delay: 250});  // the folder is polled meanwhile
   await page.keyboard.press('Enter');
   await until(page, () => document.querySelector('.command code').textContent.includes('--heap 10,10,90,90'));
   assert.equal(await isOff(page, 'Save'), false);
@@ -98,7 +98,7 @@ const zoom = async (page) => {
   await until(page, (was) => document.querySelector('.viewer svg').viewBox.baseVal.width === was, whole);
 };
 
-// A length gives sizes only once it is said.
+// A drawn length gives sizes only once its value is typed.
 const measureALength = async (page) => {
   await click(page, 'Length');
   await drag(page, [100, 100], [500, 100]);
@@ -113,7 +113,7 @@ const measureALength = async (page) => {
   await until(page, () => !document.querySelector('.command code').textContent.includes('--scale'));
 };
 
-// What a page of its own downloads, by a click.
+// Returns the file that a click downloads.
 const download = async (page, name, folder) => {
   const client = await page.createCDPSession();
   await client.send('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: folder});
@@ -173,7 +173,7 @@ const lookAtSet = async (page, folder, count) => {
   await takeFilesOfSet(page, folder, count);
 };
 
-// Ticked pictures against others, and against a folder: as the command that is shown for it compares them.
+// Ticked pictures against others, and against a folder: the same comparison as by the command shown.
 const compareSets = async (page, folder, files) => {
   const above = join(folder, '..');
   const dense = join(folder, 'dense');
@@ -213,12 +213,12 @@ const compareSets = async (page, folder, files) => {
   rmSync(dense, {recursive: true});
 };
 
-// Two windows on one picture: what the first has saved is not written over by the second unasked.
+// Two windows on one picture: the second does not overwrite what the first has saved without asking.
 const fightForAPicture = async (browser, address, page, folder, name) => {
   const {page: other, errors} = await open(browser, address);
   await untilMeasured(other, (await page.$$('.files li')).length);
   for (const [window, x] of [[page, 10], [other, 200]]) {
-    await window.bringToFront();  // a page behind others draws nothing
+    await window.bringToFront();  // a page behind another draws nothing
     await choose(window, name);
     await click(window, 'Leave out');
     await drag(window, [x, 10], [x + 90, 60]);
@@ -238,19 +238,19 @@ const fightForAPicture = async (browser, address, page, folder, name) => {
   await until(other, () => document.querySelector('.actions .hint').textContent.includes('are saved'));
   const second = kept();
   assert.notEqual(second, first);
-  // The first window shows what holds now.
+  // The first window shows the current state.
   await page.bringToFront();
   await until(page, () => (document.querySelector('.command code').textContent.match(/--exclude/g) ?? []).length === 1
     && document.querySelector('.said .exclude rect').getAttribute('x') >= 150);
   await click(page, 'Start again');
   await until(page, () => !document.querySelector('.said .exclude'));
-  // One that only looks is refused by the studio's answer alone.
+  // The only errors are the studio's refusals (409).
   assert.deepEqual(errors.filter((error) => !error.includes('409')), []);
   await other.close();
   await page.bringToFront();
 };
 
-// A file too large for the page, and a disk without room for one: told, and nothing half there.
+// A file too large for the page: reported, and nothing left behind.
 const attackByFiles = async (page, folder) => {
   const before = readdirSync(folder).sort();
   const large = join(folder, '..', 'large.jpg');
@@ -269,7 +269,7 @@ const sitWithAFullDisk = async (browser, folder) => {
   await page.waitForSelector('[role=alert]');
   assert.match(await textOf(page, '[role=alert]'), /heap_01.jpg: cannot be written .*Fix/);
   assert.deepEqual(readdirSync(folder), ['.repose-studio.lock']);
-  // Another may not start there meanwhile, and a killed one leaves no lock.
+  // A second studio may not start there meanwhile, and a killed one leaves no lock.
   await assert.rejects(startStudio(repose, folder), /process \d+ is using it.*Fix: open the address/s);
   await end(studio, 'SIGKILL');
   await until(page, () => /has ended/.test(document.querySelector('[role=alert]').textContent));
@@ -297,10 +297,10 @@ const sit = async (browser, folder) => {
   await click(page, 'Pictures');
   await fightForAPicture(browser, address, page, folder, files[2]);
   await attackByFiles(page, folder);
-  // Without its key the page shows nothing.
+  // Without its access key the page shows nothing.
   const stranger = await (await browser.createBrowserContext()).newPage();
   assert.equal((await stranger.goto(new URL('/', address).href)).status(), 403);
-  // The one that compareSets() has asked for.
+  // Except the one that compareSets() provokes.
   assert.deepEqual(errors.filter((error) => !error.includes('status of 400')), []);
   assert.equal(await end(studio, 'SIGINT'), 0);
   await until(page, () => /has ended/.test(document.querySelector('[role=alert]').textContent));

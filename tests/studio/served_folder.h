@@ -14,7 +14,7 @@
 
 namespace repose::studio::test {
 
-/// A studio on a folder of its own, and a page that has its key.
+/// A studio on its own folder, and a client that holds its access token.
 class ServedFolder {
  public:
   explicit ServedFolder(const std::filesystem::path& program = {}) : program_(program) { serve(); }
@@ -24,7 +24,7 @@ class ServedFolder {
   ServedFolder(ServedFolder&&) = delete;
   ServedFolder& operator=(ServedFolder&&) = delete;
 
-  /// A new studio on the same folder.
+  /// Starts a new studio on the same folder.
   void serve() {
     server_ = std::make_unique<Server>(StudioOptions{.folder = folder.path(), .program = program_});
     thread_ = std::thread([this] { server_->run(); });

@@ -1,4 +1,4 @@
-// The studio as a browser talks to it, over HTTP.
+// The studio over HTTP, as a browser uses it.
 #include "studio/server.h"
 
 #include <chrono>
@@ -34,7 +34,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// While it lives, no file of this process grows beyond a few bytes: a disk that is full.
+/// Simulates a full disk: while it exists, no file of this process grows beyond a few bytes.
 class FullDisk {
  public:
   FullDisk() : earlier_handler_(::signal(SIGXFSZ, SIG_IGN)) {
@@ -121,7 +121,7 @@ TEST_F(StudioServer, ShowsTheFolderAndMeasuresWhatIsInIt) {
   EXPECT_NEAR(measured.at("angle_deg"), *heap().mean_rad() * 57.29578, 3);
   EXPECT_EQ(answer.at("marks").at("width"), heap().picture.width);
   EXPECT_GT(answer.at("marks").at("outline").size(), 100U);
-  EXPECT_THAT(answer.at("command"), HasSubstr("'"));  // the name has a blank
+  EXPECT_THAT(answer.at("command"), HasSubstr("'"));  // the name contains a space
   EXPECT_EQ(get("/api/measured?file=heap%20a.png"), answer);
 }
 
@@ -206,7 +206,7 @@ TEST_F(StudioServer, WhatIsPaintedBecomesAMaskThatTheCommandLineReads) {
   EXPECT_EQ(level(12, 12), 0);
   EXPECT_EQ(level(middle, ground.from.y - 20), 128);
   EXPECT_EQ(level(12, 60), 128);
-  // The mask is no heap of the folder, and goes with what else is saved.
+  // The mask is not listed as a heap, and is deleted with the other saved data.
   EXPECT_EQ(get("/api/folder").at("files").size(), 1U);
   const Json saved = get("/api/measured?file=heap%20a.png");
   EXPECT_EQ(saved.at("told").at("has_mask"), true);
@@ -228,7 +228,7 @@ TEST_F(StudioServer, AMaskTurnsWithItsPicture) {
       client_->Put("/api/hints?file=heap%20a.png" + version(), told.dump(), "application/json")
           ->status,
       200);
-  // Turned clockwise by 90 degrees, (10, 30) comes from 30 to the right and 10 from below.
+  // Rotated clockwise by 90 degrees, (10, 30) comes from 30 to the right and 10 from below.
   const vision::Picture mask = vision::read_picture(vision::mask_file_of(picture));
   ASSERT_EQ(mask.width, heap().picture.width);
   const auto at = static_cast<std::size_t>(mask.height - 11) * mask.width + 30;
@@ -266,8 +266,8 @@ TEST_F(StudioServer, OfAThousandPicturesEachAnswersWhileTheOthersAreMeasured) {
     picture.bgr[1] = static_cast<std::uint8_t>(k / 256);
     vision::write_picture(folder_.path() / fmt::format("b_{:04}.png", k), picture);
   }
-  // Ten times what each takes where nothing else is done: a list that is read anew for each of its
-  // files, or a wait for all of them, takes longer than that.
+  // Ten times what each takes on an idle machine: a list that is reread for each of its files, or a
+  // wait for all of them, takes longer.
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   EXPECT_EQ(get("/api/folder").at("files").size(), kPictures + 1U);
@@ -414,7 +414,7 @@ TEST_F(StudioServer, StrangersAreNotAnswered) {
 TEST_F(StudioServer, TooLargeAFileIsRefused) {
   const std::string large(std::size_t{200} << 20, 'x');
   const auto answer = client_->Post("/api/file?file=large.png", large, "image/png");
-  // It may hang up before all was sent.
+  // It may hang up before everything was sent.
   if (answer) {
     EXPECT_EQ(answer->status, 413);
   }

@@ -1,15 +1,15 @@
-// A study at the studio's page, by clicks, keys and the clipboard alone:
+// A study on the studio's page, using only clicks, keys and the clipboard:
 // node study_page_test.mjs REPOSE CHROMIUM [PICTURES]
 //
 //   REPOSE    the program
 //   CHROMIUM  the browser
-//   PICTURES  a folder for pictures of the page, for people to look at
+//   PICTURES  a folder for screenshots of the page, for people to look at
 //
-// A study of peas is started from the form; its sheets are typed and pasted into, wrong cells are told at
-// the cell; a number of the protocol is changed. A plan of a minute is made, the time estimated; a calibration is started, stopped,
-// resumed and watched to its end over a closed page; its report is opened, its result saved, its
-// coefficients exported. Nothing is fetched from elsewhere, no error is told, axe finds nothing serious,
-// nothing is wider than a telephone.
+// A study of peas is created from the form; its sheets are filled by typing and pasting, errors are shown
+// at the cell; a number of the protocol is changed. A one-minute plan is made, the time estimated; a
+// calibration is started, stopped, resumed and followed to its end although the page is closed meanwhile;
+// its report is opened, its result saved, its coefficients exported. Nothing is fetched from elsewhere, no
+// error is reported, axe finds nothing serious, nothing is wider than a phone.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
@@ -27,7 +27,7 @@ const cell = (experiment, row, column) => `[aria-label='${experiment}'] input[da
 const startStudy = async (page, folder) => {
   await click(page, 'Study');
   await page.waitForSelector('.new-study');
-  // Nothing is named yet.
+  // The study has no name yet.
   await click(page, 'Start the study');
   await page.waitForSelector('.new-study .fault');
   assert.match(await textOf(page, '.new-study .fault'), /has no name/);
@@ -38,7 +38,7 @@ const startStudy = async (page, folder) => {
   await until(page, () => document.querySelector('.new-study').textContent.includes('has 1 of its 3 numbers'));
   await fill(page, 'input[name=width]', '7,2');
   await fill(page, 'input[name=thickness]', '6.9');
-  // Drop and tilt alone: what takes seconds.
+  // Only drop and tilt, which take seconds.
   for (const name of ['roll', 'heap']) await page.click(`input[name=${name}]`);
   await until(page, () => document.querySelector('.command code').textContent.endsWith('--grain-mm 7.6,7.2,6.9 --plate wood --experiments drop,tilt'));
   await lookAt(page, 'study_new', pictures);
@@ -54,7 +54,7 @@ const fillSheets = async (page, folder) => {
     await page.keyboard.type(text);
     await page.keyboard.press('Enter');
   }
-  // The height of fall is the study's.
+  // The drop height is the study's.
   assert.equal(await page.$eval(cell('drop', 5, 0), (input) => input.value), '500');
   await page.waitForSelector(`${cell('drop', 1, 1)}[aria-invalid=true]`);
   assert.match(await textOf(page, "[aria-label='drop'] .faults"), /rebound_mm = 600 is more than drop_mm = 500/);
@@ -67,7 +67,7 @@ const fillSheets = async (page, folder) => {
   };
   await save('drop');
   assert.equal(readFileSync(join(folder, 'peas/drops.csv'), 'utf8'), 'drop_mm,rebound_mm\n500,180\n500,184\n500,176\n500,187\n500,172\n500,191\n');
-  // Pasted, as a spreadsheet gives it.
+  // Pasted as from a spreadsheet.
   await page.focus(cell('tilt', 0, 0));
   await page.evaluate(() => navigator.clipboard.writeText('19,8\n20,6\n21,1\n19,5\n20,2\n'));
   await page.keyboard.down('Control');
@@ -115,7 +115,7 @@ const calibrate = async (browser, page, address) => {
   if (!await page.$('.found')) await click(page, 'Resume');
   await until(page, () => document.querySelector('.narrowing figure') || document.querySelector('.found'));
   await lookAt(page, 'study_at_work', pictures);
-  // It goes on without its page.
+  // It continues without the page.
   await page.close();
   const {page: again, errors} = await open(browser, address);
   await click(again, 'Study');
@@ -140,7 +140,7 @@ const takeAway = async (browser, page) => {
   const report = await (await opened).page();
   await report.waitForSelector('.chart .main-svg', {timeout: kPatience_ms});
   assert.match(await textOf(report, 'h1'), /Peas on wood/);
-  // Its scripts have no key to the studio.
+  // The report's scripts have no access to the studio.
   assert.equal(await report.evaluate(() => fetch('/api/folder').then(() => 'answered', () => 'refused')), 'refused');
   await report.close();
 };
@@ -152,7 +152,7 @@ const plan = async (page) => {
   await click(page, 'Find out');
   await page.waitForSelector('.effects');
   assert.match(await textOf(page, '.effects'), /drop.*measured.*roll/);
-  // Not measured, and it would tell of rolling friction.
+  // The roll is not measured, and would determine rolling friction.
   assert.match(await textOf(page, '.outlook'), /what is measured.*open.*\+ roll/);
   await lookAt(page, 'study_plan', pictures);
 };

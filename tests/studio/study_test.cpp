@@ -1,4 +1,4 @@
-// Studies over HTTP: started from what a form says, their sheets filled in, their numbers changed.
+// Studies over HTTP: created from a form, their sheets filled in, their numbers changed.
 #include <filesystem>
 #include <string>
 
@@ -25,7 +25,7 @@ class StudioStudies : public ::testing::Test {
 
   void start_peas() { studio_.post("/api/studies", kPeas); }
 
-  /// One of the study's, as the page is told of it.
+  /// One of the study's experiments, as sent to the page.
   Json experiment(const std::string& name) {
     const Json study = studio_.get("/api/study?study=peas.toml");
     for (const Json& one : study.at("experiments")) {
@@ -111,7 +111,7 @@ TEST_F(StudioStudies, WrongCellsAreToldAsTheCommandLineTellsThem) {
     return Json{fault.at("row"), fault.at("column")};
   };
   EXPECT_EQ(place(0), Json({1, 1}));
-  EXPECT_EQ(place(1), Json({3, 0}));  // not the height of the study
+  EXPECT_EQ(place(1), Json({3, 0}));  // not the study's height
   EXPECT_EQ(place(2), Json({2, 1}));
   studio_.folder.write("peas/drops.csv",
                        std::string("drop_mm,rebound_mm\n500,180\n500,abc\n500,600\n300,100\n"));
@@ -127,7 +127,7 @@ TEST_F(StudioStudies, ASheetIsSavedAsItIsTypedWrongOrNot) {
   start_peas();
   Json cells = Json::parse(R"({"columns": ["drop_mm", "rebound_mm"],
       "rows": [["500", "180,5"], ["", ""], ["500", "a,\"b"]]})");
-  studio_.put(kDrops, cells, 409);  // of no version
+  studio_.put(kDrops, cells, 409);  // without a version
   cells["version"] = experiment("drop").at("sheet").at("version");
   const Json saved = studio_.put(kDrops, cells);
   EXPECT_EQ(saved.at("faults").size(), 1U);
@@ -136,7 +136,7 @@ TEST_F(StudioStudies, ASheetIsSavedAsItIsTypedWrongOrNot) {
   const Json sheet = experiment("drop").at("sheet");
   EXPECT_EQ(sheet.at("version"), saved.at("version"));
   EXPECT_EQ(sheet.at("rows").at(1), Json({"500", "a,\"b"}));
-  // Another page has the version of before.
+  // Another page still has the previous version.
   const Json late = studio_.put(kDrops, cells, 409);
   EXPECT_THAT(late.at("error"), HasSubstr("was changed meanwhile"));
 }
@@ -167,7 +167,7 @@ TEST_F(StudioStudies, TheProtocolIsThatOfTheExperimentAndIsCheckedByIt) {
     const Json faults = studio_.post(kNumbers, numbers(wrong)).at("faults");
     ASSERT_EQ(faults.size(), 1U) << wrong;
     EXPECT_EQ(faults.at(0).at("key"), "experiment.drop.height_mm");
-    EXPECT_THAT(texts(faults), Not(HasSubstr("/")));  // no name of a file in between
+    EXPECT_THAT(texts(faults), Not(HasSubstr("/")));  // no name of a temporary file
   }
   const std::string before = studio_.text("peas.toml");
   Json change = numbers("-5");
@@ -177,7 +177,7 @@ TEST_F(StudioStudies, TheProtocolIsThatOfTheExperimentAndIsCheckedByIt) {
   change["numbers"] = numbers("250").at("numbers");
   EXPECT_EQ(studio_.put(kNumbers, change).at("saved"), true);
   EXPECT_THAT(studio_.text("peas.toml"), HasSubstr("\nheight_mm = 250\n"));
-  studio_.put(kNumbers, change, 409);  // of the version before
+  studio_.put(kNumbers, change, 409);  // previous version
   studio_.post(kNumbers, Json{{"numbers", {{"particle", {{"density_kg_m3", "1"}}}}}}, 400);
   // The study, the folder of its sheets, and the studio's lock.
   EXPECT_EQ(studio_.folder.names().size(), 3U) << "nothing is left of what was tried";

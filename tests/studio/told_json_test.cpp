@@ -1,4 +1,4 @@
-// What the page tells of a picture, in both directions.
+// The page's hints about a picture, in both directions.
 #include "studio/told_json.h"
 
 #include <gmock/gmock.h>

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kFineBits = 4;  // of a coordinate's fraction of a pixel
 
-/// Light that falls on (u, v), each from -1 to 1 over the thing's box.
+/// Light that falls on (u, v), each from -1 to 1 over the shape's bounding box.
 double light_at(const Paint& paint, double u, double v) {
   constexpr double kRight = -.40, kUp = .62, kNear = .675;  // where the lamp is
   if (paint.shading == Shading::slope) {

@@ -12,14 +12,14 @@
 
 namespace repose::testing {
 
-/// In widths of the picture, from its top left corner to the right and down.
+/// In picture widths, from the top left corner to the right and down.
 using Place = cv::Point2d;
 using Places = std::vector<Place>;
 
-/// How light falls off over a painted thing.
+/// How the light falls off over a painted shape.
 enum class Shading {
   slope,     ///< evenly in one direction
-  ball,      ///< as on a ball that fills the thing's box
+  ball,      ///< as on a ball that fills the shape's bounding box
   cylinder,  ///< as on an upright cylinder that fills it
 };
 
@@ -27,14 +27,14 @@ struct Paint {
   Color color;
   Shading shading = Shading::slope;
   double contrast = 0.2;     ///< of the shading: 0 is flat
-  double towards_rad = 0.8;  ///< where a slope becomes lighter
+  double towards_rad = 0.8;  ///< direction in which a slope becomes lighter
   Pattern pattern = Pattern::plain;
   double pattern_strength = 0.2;
-  double pattern_scale = 0.012;  ///< in widths of the picture
+  double pattern_scale = 0.012;  ///< in picture widths
   double opacity = 1;
 };
 
-/// A stage to paint any picture on, in fractions of its width.
+/// A stage to paint any picture on, in fractions of the picture's width.
 class Canvas {
  public:
   /// Takes its size and roll from the scene.
@@ -45,7 +45,7 @@ class Canvas {
 
   void fill(const Places& polygon, const Paint& paint);
   void stroke(const Places& line, double width, const Paint& paint);
-  /// From its lower left corner, as high as `size`.
+  /// Writes the text with its lower left corner at `at`, `size` high.
   void write(const std::string& text, Place at, double size, int font, const Paint& paint);
   /// Shadow with a soft edge.
   void darken(const Places& polygon, double strength, double softness);
@@ -64,10 +64,10 @@ class Canvas {
 /// Rectangle from its upper left to its lower right corner.
 Places rectangle(Place from, Place to);
 Places ellipse(Place middle, double half_width, double half_height, double turn_rad = 0);
-/// The polygon with its corners cut round.
+/// The polygon with rounded corners.
 Places rounded(Places polygon, int rounds = 4);
 Places moved(Places places, Place by);
-/// Turned round a place; > 0 is clockwise as seen.
+/// Rotated about a place; > 0 is clockwise in the picture.
 Places turned(Places places, Place round, double angle_rad);
 
 }  // namespace repose::testing

@@ -18,10 +18,10 @@ namespace {
 using Eigen::Vector3d;
 using vision::Point;
 
-// The sheet around the board, in squares: what a page of A4 leaves.
+// The sheet around the board, in squares: the margins of an A4 page.
 constexpr double kSameEdgeTolerance = 1.15, kAbove = 0.4, kNoteIndent = 1.3;
 
-/// Black where a patch is; a table of fine cells, for there are 400 patches and millions of pixels.
+/// Black inside a patch. A table of fine cells, as there are 400 patches and millions of pixels.
 class BoardPattern {
  public:
   BoardPattern() : cells_(vision::kBoardRows * kCells, vision::kBoardColumns * kCells, kWhite) {
@@ -42,7 +42,7 @@ class BoardPattern {
   }
 
  private:
-  static constexpr int kCells = 8;  // a square's eighth is the least that is drawn
+  static constexpr int kCells = 8;  // the finest detail is an eighth of a square
   static constexpr unsigned char kWhite = 255;
   cv::Mat1b cells_;
 };
@@ -52,7 +52,7 @@ bool is_on_sheet(double x, double y) {
          y >= -kAbove && y <= vision::kBoardRows + kNoteIndent;
 }
 
-/// All of the sheet, and what its blur adds.
+/// The whole sheet with a margin for its blur.
 cv::Rect frame_of(const BoardCamera& camera, const BoardPlace& place) {
   constexpr int kSteps = 8, kBlur_px = 8;
   std::vector<cv::Point> points;
@@ -122,7 +122,7 @@ vision::Box sheet_box(const BoardCamera& camera, const BoardPlace& place) {
 void draw_board(const BoardCamera& camera, const BoardPlace& place, const BoardLook& look,
                 vision::Picture& picture) {
   static const BoardPattern pattern;
-  constexpr int kSamples = 4;  // a side of each pixel
+  constexpr int kSamples = 4;  // per side of each pixel
   cv::Mat target = vision::mat_of(picture);
   cv::Mat1f colour = cv::Mat1f::zeros(target.size());
   cv::Mat1f cover = cv::Mat1f::zeros(target.size());
@@ -131,7 +131,7 @@ void draw_board(const BoardCamera& camera, const BoardPlace& place, const BoardL
   const cv::Rect shown = frame_of(camera, place) & cv::Rect({}, target.size());
   for (int row = shown.y; row < shown.br().y; ++row) {
     for (int col = shown.x; col < shown.br().x; ++col) {
-      // Within a pixel directions change evenly.
+      // Directions change linearly within a pixel.
       const Vector3d middle = to_board * camera.direction({col + 0.5, row + 0.5});
       const double step = 1 / (camera.focal_px * kSamples);
       for (int i = 0; i < kSamples * kSamples; ++i) {

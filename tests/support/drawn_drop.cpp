@@ -42,7 +42,7 @@ vision::Picture DrawnDrop::picture(int frame, const cv::Mat& scene) const {
     for (int grain = 0; grain < grains; ++grain) {
       cv::Point2d at;
       double time_s = begin_s;
-      // Rows that are read later show a later time.
+      // Rows that are read out later show a later time.
       for (int round = 0; round < 4; ++round) {
         const double flown_s = std::max(0.0, time_s - release_s - .04 * grain);
         const double up = height_mm(time_s - .04 * grain) / mm_per_px;

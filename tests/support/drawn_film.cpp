@@ -18,7 +18,7 @@ cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other) {
   const int floor = cvRound(kFloorPart * size.height);
   scene(cv::Rect(0, floor, size.width, size.height - floor)) *= .55;
   for (int k = 0; k < 12; ++k) {
-    // One by one: compilers draw a call's arguments in different orders.
+    // One by one: the evaluation order of a call's arguments depends on the compiler.
     const int y = random.uniform(0, floor), x = random.uniform(0, size.width);
     const double grey = random.uniform(90., 150.);
     const int radius = random.uniform(2, 6);
@@ -29,7 +29,7 @@ cv::Mat drawn_scene(const cv::Size& size, unsigned seed, bool is_other) {
 }
 
 void draw_film_board(cv::Mat& scene, const cv::Point2d& middle, double square_px) {
-  // As far away as the camera's focal length, so that a millimetre is a pixel.
+  // At a distance equal to the focal length, so that a millimetre is a pixel.
   constexpr double kFar = 1e4;
   const BoardCamera camera{.width = scene.cols,
                            .height = scene.rows,

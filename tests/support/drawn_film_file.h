@@ -7,7 +7,7 @@
 namespace repose::testing {
 
 /// Writes all frames of a drawn drop, roll or tilt as a film.
-/// @param plays_at  frames a second; 0: as the camera took them
+/// @param plays_at  frames per second; 0: the camera's rate
 template <typename Drawn>
 void write_film(const std::filesystem::path& file, const Drawn& drawn, double plays_at = 0) {
   vision::FilmWriter film(file, plays_at > 0 ? plays_at : drawn.frames_per_s);

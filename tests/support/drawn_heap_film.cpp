@@ -20,10 +20,10 @@ cv::Mat floating(vision::Picture& picture) {
   return drawn;
 }
 
-/// What a film's frames are made of.
+/// The layers from which a film's frames are composed.
 struct Layers {
   cv::Mat empty, full;
-  cv::Mat heap;  ///< how much of each pixel of `full` is heap
+  cv::Mat heap;  ///< fraction of each pixel of `full` that is heap
   cv::Point2d foot;
 };
 
@@ -44,7 +44,7 @@ Layers layers_of(HeapScene scene) {
   return layers;
 }
 
-/// The heap reduced towards the middle of its foot.
+/// The heap shrunk towards the middle of its foot.
 cv::Mat grown(const Layers& layers, double size) {
   constexpr double kNothing = .05;
   if (size >= 1) return layers.full.clone();

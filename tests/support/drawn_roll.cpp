@@ -13,7 +13,7 @@
 namespace repose::testing {
 namespace {
 
-/// Ball and planes in pixels from the foot, x along the flat and y upwards.
+/// Ball and planes, in pixels from the foot, x along the flat and y up.
 struct Course {
   explicit Course(const DrawnRoll& roll)
       : slope(roll.incline_deg * std::numbers::pi / 180),
@@ -24,7 +24,7 @@ struct Course {
         roll_s(roll.roll_s),
         hop(roll.hop_px) {}
 
-  /// Faster and faster down, slower and slower out, at one speed past the corner.
+  /// Accelerates down and decelerates on the flat; the speed is continuous at the corner.
   cv::Point2d centre(double time_s) const {
     const double down_s = roll_s * down / (down + out), out_s = roll_s - down_s;
     const double t = std::clamp(time_s, 0.0, roll_s);
@@ -39,13 +39,13 @@ struct Course {
   }
 
   double slope, radius;
-  double corner;  ///< of the centre's path, from the foot on
+  double corner;  ///< distance of the centre path's corner from the foot
   double down, out;
   double roll_s;
   double hop;
 };
 
-/// From the foot to the picture.
+/// Maps coordinates from the foot to the picture.
 cv::Point2d placed(const DrawnRoll& roll, const cv::Point2d& at) {
   constexpr double kFootPart = .36;
   const double across = kFootPart * roll.width + at.x - .5 * roll.width;

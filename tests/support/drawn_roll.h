@@ -4,8 +4,8 @@
 
 #include "vision/picture/picture.h"
 
-/// Frames of a film of a ball that rolls down an incline and out on a flat, drawn with everything
-/// about its path known.
+/// Frames of a film of a ball that rolls down an incline and out onto a flat, drawn with its path
+/// known exactly.
 namespace repose::testing {
 
 struct DrawnRoll {
@@ -20,20 +20,20 @@ struct DrawnRoll {
   double radius_px = 9;
   double release_s = .3;  ///< held until then
   double roll_s = 1.5;    ///< from the release to rest
-  double exposure = .3;   ///< of the time between frames
+  double exposure = .3;   ///< fraction of the frame interval
   double noise = 2;       ///< standard deviation of a grey level
   double roll_rad = 0;    ///< of the camera, clockwise
-  double hop_px = 0;      ///< how high it hops when it comes to the flat
+  double hop_px = 0;      ///< how high it hops when it reaches the flat
   bool has_hand = false;  ///< holds the grain, then leaves
   bool has_shadow = true;
   bool goes_left = false;
-  int grains = 1;              ///< further ones begin lower and stop earlier
-  bool has_incline = true;     ///< false: it rolls on the flat alone
-  double board_square_px = 0;  ///< of a board beside the grain's way; 0: there is none
+  int grains = 1;              ///< further ones start lower and stop earlier
+  bool has_incline = true;     ///< false: it rolls on the flat only
+  double board_square_px = 0;  ///< of a board beside the grain's path; 0: no board
   unsigned seed = 1;
 
   int frames() const { return static_cast<int>(frames_per_s * seconds); }
-  cv::Mat scene() const;  ///< what stands still
+  cv::Mat scene() const;  ///< the static background
   vision::Picture picture(int frame, const cv::Mat& scene) const;
 };
 

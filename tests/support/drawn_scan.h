@@ -9,15 +9,15 @@
 
 #include "base/polygon_file.h"
 
-/// Scans of surfaces that are known.
+/// Scans of known surfaces.
 namespace repose::testing {
 
-/// Height over the ground at a place on it.
+/// Height above the ground at a place on it.
 using HeightOver = std::function<double(double x, double y)>;
 
 HeightOver cone_surface(double angle_deg, double height);
 
-/// Volume of that cone, in its unit's cube.
+/// Volume of that cone, in cubic units of `height`.
 double cone_volume(double angle_deg, double height);
 
 struct ScanDraft {
@@ -28,18 +28,18 @@ struct ScanDraft {
   std::uint64_t seed = 1;
 };
 
-/// Points at random places of a square around the origin, z up.
+/// Points at random places in a square around the origin, z up.
 std::vector<base::Corner> drawn_scan(const ScanDraft& draft);
 
-/// Adds points anywhere in a box of that half side.
+/// Adds points at random places in a box of that half side.
 void add_outliers(std::vector<base::Corner>& points, std::size_t count, double half_side,
                   std::uint64_t seed = 7);
 
-/// The points that a rule keeps.
+/// The points for which `keeps` is true.
 std::vector<base::Corner> kept(const std::vector<base::Corner>& points,
                                const std::function<bool(const base::Corner&)>& keeps);
 
-/// Turned by 130 degrees about (1, 2, 3), enlarged and moved.
+/// Rotated by 130 degrees about (1, 2, 3), scaled and moved.
 std::vector<base::Corner> turned(std::vector<base::Corner> points, double scale = 1);
 
 /// Binary PLY.

@@ -13,10 +13,10 @@
 namespace repose::testing {
 namespace {
 
-constexpr double kApart = 1.8;  ///< of bonded balls, in radii
+constexpr double kApart = 1.8;  ///< distance of bonded balls, in radii
 
-/// Way down the plate after the onset: the weight along the plate less the friction in motion,
-/// integrated twice over time, the plate turning steadily on.
+/// Distance slid down the plate after the onset: the weight along the plate less the kinetic
+/// friction, integrated twice over time, while the plate keeps turning steadily.
 double slid_mm(const DrawnTilt& tilt, double onset_deg, double since_s) {
   if (since_s <= 0) return 0;
   const double begin = onset_deg * kDegree, rate = tilt.rate_deg_s * kDegree;
@@ -26,7 +26,8 @@ double slid_mm(const DrawnTilt& tilt, double onset_deg, double since_s) {
   return kGravity_mm_s2 / rate * (weight - friction * held);
 }
 
-/// From the plate to the picture: x along it from the hinge, y upwards from its upper edge.
+/// Maps the plate's coordinates to the picture: x along it from the hinge, y up from its upper
+/// edge.
 struct Placing {
   Placing(const DrawnTilt& tilt, double time_s)
       : tilt_(tilt),
@@ -36,7 +37,7 @@ struct Placing {
 
   cv::Point2d in_picture(const cv::Point2d& at) const {
     const double c = plate_.x, s = plate_.y;
-    // Below the hinge lies half the plate's thickness.
+    // Half the plate's thickness lies below the hinge.
     const double y = at.y + .5 * tilt_.thickness_px;
     const cv::Point2d plain(tilt_.hinge_part * tilt_.width + at.x * c - y * s,
                             row_of_hinge() - at.x * s - y * c);
@@ -78,7 +79,7 @@ struct Placing {
   double shift;
 };
 
-/// Each pixel by how much of it the plate covers.
+/// Blends each pixel by the fraction of it that the plate covers.
 void draw_plate(cv::Mat& scene, const DrawnTilt& tilt, const Placing& placing) {
   const double from = (tilt.plate_from - tilt.hinge_part) * tilt.width;
   const double to = (tilt.plate_to - tilt.hinge_part) * tilt.width;
@@ -150,7 +151,7 @@ cv::Mat DrawnTilt::scene() const { return drawn_scene({width, height}, seed); }
 
 vision::Picture DrawnTilt::picture(int frame, const cv::Mat& scene) const {
   const double middle_s = frame / frames_per_s;
-  // Only what moves by a good part of a pixel while the shutter is open is blurred.
+  // Blurred only when the motion during the exposure is a considerable part of a pixel.
   constexpr double kBefore_s = .05;
   const bool is_blurred = exposure > 0 && middle_s > onset_s() - kBefore_s;
   const cv::Matx23d shaken(1, 0, Placing(*this, middle_s).shift, 0, 1, 0);

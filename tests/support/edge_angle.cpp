@@ -24,7 +24,7 @@ double height_between(const EdgePoint& a, const EdgePoint& b, double out) {
   return a.height + (out - a.out) / (b.out - a.out) * (b.height - a.height);
 }
 
-/// Columns are so narrow that their number does not matter.
+/// Columns are narrow enough for their number not to matter.
 /// @param from, to  outwards
 double line_angle_rad(std::span<const EdgePoint> edge, double from, double to) {
   constexpr int kColumns = 4000;

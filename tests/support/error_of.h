@@ -6,7 +6,7 @@
 
 namespace repose {
 
-/// The message of the error that a call throws; empty when it throws none.
+/// The message of the error that a call throws; empty if it throws none.
 template <typename Error = base::InputError, typename Call>
 std::string error_of(const Call& call) {
   try {

@@ -42,7 +42,7 @@ double FlankLaw::steepness(double height) const {
 double hollow_of_bend(Flanks flanks, double chord_slope, double bend_rad) {
   const bool is_power = flanks != Flanks::exponential;
   double low = is_power ? 1 : 1e-3;  // straight
-  double high = is_power ? 4 : 6;    // hollower than any heap
+  double high = is_power ? 4 : 6;    // more concave than any heap
   constexpr int kHalvings = 30;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;

@@ -13,15 +13,15 @@ class FlankLaw {
 
   double height(double out) const;
   double out_at(double height) const;     ///< inverse of height()
-  double steepness(double height) const;  ///< loss of height per `out` where it is that high
+  double steepness(double height) const;  ///< loss of height per `out` at that height
 
  private:
   bool is_power_;
   double hollow_;
 };
 
-/// The p or k with which the window's upper half is steeper than its lower half by that much, when
-/// the line from toe to apex has this slope.
+/// The p or k that makes the window's upper half steeper than its lower half by `bend_rad` if the
+/// line from toe to apex has slope `chord_slope`.
 double hollow_of_bend(Flanks flanks, double chord_slope, double bend_rad);
 
 }  // namespace repose::testing

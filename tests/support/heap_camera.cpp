@@ -29,7 +29,7 @@ void light_unevenly(cv::Mat light, const Camera& camera) {
 cv::Mat rolled(const cv::Mat& light, const HeapScene& scene, double margin_px) {
   const double cosine = std::cos(scene.camera.tilt_rad);
   const double sine = std::sin(scene.camera.tilt_rad);
-  // warpAffine counts from the first pixel's centre, in_picture from its corner.
+  // The origin of warpAffine is the first pixel's centre, that of in_picture its corner.
   const vision::Point at = in_picture(scene, margin_px, {0.5, 0.5});
   const cv::Matx23d turn(cosine, -sine, at.x - 0.5, sine, cosine, at.y - 0.5);
   cv::Mat picture;
@@ -38,7 +38,7 @@ cv::Mat rolled(const cv::Mat& light, const HeapScene& scene, double margin_px) {
   return picture;
 }
 
-/// Shot noise grows with the root of the light, read noise is always there.
+/// Shot noise grows with the square root of the light; read noise is constant.
 void add_noise(cv::Mat& light, double noise, Random& random) {
   cv::RNG rng(random.seed());
   cv::Mat grains(light.size(), CV_32FC3);

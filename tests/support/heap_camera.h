@@ -15,7 +15,7 @@ vision::Point in_picture(const HeapScene& scene, double margin_px, vision::Point
 /// Takes the picture: uneven light, defocus, roll, exposure, sensor noise, compression.
 vision::Picture take_picture(const Stage& stage, const HeapScene& scene, Random& random);
 
-/// What is left of a picture in a JPEG file of that quality, 1 to 100.
+/// The picture as decoded from a JPEG file of that quality, 1 to 100.
 vision::Picture jpeg_compressed(const vision::Picture& picture, int quality);
 
 }  // namespace repose::testing

@@ -68,7 +68,7 @@ HeapScene texture(std::uint64_t seed) {
   auto [scene, random] = draft("texture", seed);
   do {
     choose_colors(scene, 32, 65, random);
-  } while (scene.around.backdrop.g < 0.3);  // texture does not show on black
+  } while (scene.around.backdrop.g < 0.3);  // texture is invisible on black
   scene.around.texture = random.pick(std::array{Texture::noise, Texture::fabric, Texture::wood});
   scene.around.texture_strength = random.uniform(0.18, 0.34);
   scene.around.texture_scale = random.uniform(0.5, 1.4);

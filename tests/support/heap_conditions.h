@@ -10,10 +10,10 @@ namespace repose::testing {
 
 enum class Group {
   clean,           ///< well-lit pictures
-  degraded,        ///< one trouble each, as laboratories have them
-  hollow,          ///< flanks that are no straight lines, or made of few grains
+  degraded,        ///< one defect each, as in laboratory practice
+  hollow,          ///< flanks that are not straight, or made of few grains
   sample,          ///< the hazelnut pictures
-  misplaced,       ///< the camera stands where the instructions say it must not
+  misplaced,       ///< the camera stands where the instructions forbid it
   not_measurable,  ///< no angle exists: a measurement must be refused
 };
 
@@ -29,7 +29,7 @@ std::span<const Condition> conditions();
 /// @throws std::invalid_argument  no condition has this name.
 const Condition& condition_named(std::string_view name);
 
-/// Hazelnuts from a 100 x 400 mm cylinder of 18 mm nuts: few large grains, means of 23.38 +- 0.72
+/// Heaps of 18 mm hazelnuts from a 100 x 400 mm cylinder: few large grains, means of 23.38 +- 0.72
 /// degrees.
 HeapScene hazelnut_scene(std::uint64_t seed);
 

@@ -23,7 +23,7 @@ void lean_on_wall(HeapForm& form, Random& random) {
   form.base = random.uniform(1.0, 1.4);
   const double apex = form.wall_is_frame ? -0.004 : random.uniform(0.05, 0.15);
   form.center = form.wall == Side::left ? apex : 1 - apex;
-  // A high flank has to fit in.
+  // A high flank must fit into the picture.
   form.base *= std::min(1.0, 0.75 / std::tan(form.left_rad) / 1.4);
 }
 

@@ -11,7 +11,7 @@ namespace repose::testing {
 
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// A scene being made up, and the random numbers it is made from.
+/// A scene under construction, and the random numbers it is made from.
 struct Draft {
   HeapScene scene;
   Random random;

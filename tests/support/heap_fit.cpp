@@ -20,7 +20,7 @@ Point above_ground(const DrawnHeap& heap, Point p) {
   return {x * cosine + y * sine, x * sine - y * cosine};
 }
 
-/// The true line says which columns are in, so that high and low grains have the same chance.
+/// The true line determines the columns used, so that high and low grains count alike.
 double fitted_rad(const DrawnHeap& heap, const Segment& line) {
   const Point low = above_ground(heap, line.from);
   const Point high = above_ground(heap, line.to);

@@ -7,11 +7,11 @@
 
 namespace repose::testing {
 
-/// How far chance takes the exact outline from the constructed flanks: least squares over 20 to
-/// 80 % of the height, less the true angle, of every flank that exists.
+/// Random deviation of the exact outline from the constructed flanks: the least-squares angle over
+/// 20 to 80 % of the height, less the true angle, for every flank that exists.
 std::vector<double> outline_errors_rad(const DrawnHeap& heap);
 
-/// A flank of few grains strays from its line by chance: takes a heap that keeps to it.
+/// A flank of few grains deviates from its line by chance: chooses a heap that follows it.
 void settle(HeapScene& scene, Random& random);
 
 }  // namespace repose::testing

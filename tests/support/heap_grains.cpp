@@ -10,12 +10,13 @@ namespace {
 
 using vision::Point;
 
-/// Mean distance between neighbours in the outline / grain diameter, of a smooth heap and added for
-/// a rough one. A heap is many grains deep, so its outline shows more grains than fit side by side.
+/// Mean distance between neighbours in the outline / grain diameter, for a smooth heap, and the
+/// addition for a rough one. A heap is many grains deep, so its outline shows more grains than fit
+/// side by side.
 constexpr double kSmoothSpacing = 0.2;
 constexpr double kRoughSpacing = 0.2;
 constexpr double kDeepestOutline = 0.45;  ///< below the profile of a rough heap / grain diameter
-constexpr double kDeeperPart = 0.6;       ///< of the outline's grains
+constexpr double kDeeperPart = 0.6;       ///< fraction of the outline's grains that lie deeper
 constexpr double kInnerSpacing = 0.66;    ///< of rows inside / grain diameter
 constexpr double kApronSpacing = 0.8;
 
@@ -37,7 +38,7 @@ Grain random_grain(const GrainLook& look, double diameter_px, Random& random) {
   return grain;
 }
 
-/// Outline: grains tangent to the profile, some deeper when the heap is rough.
+/// Outline: grains tangent to the profile, some deeper if the heap is rough.
 void add_outline(const HeapScene& scene, const HeapProfile& profile, Random& random,
                  std::vector<Grain>& grains) {
   const auto& curve = profile.curve();
@@ -76,7 +77,7 @@ bool lies_inside(const Grain& grain, const HeapProfile& profile) {
   return true;
 }
 
-/// Rows of grains from the ground to the outline; the lower, the nearer to the camera.
+/// Rows of grains from the ground to the outline; lower ones are nearer to the camera.
 void add_inside(const HeapScene& scene, const HeapProfile& profile, Random& random,
                 std::vector<Grain>& grains) {
   if (profile.curve().empty()) return;

@@ -20,11 +20,11 @@ struct Grain {
 
   /// Distance from the centre to the tangent with this unit normal.
   double support(vision::Point normal) const;
-  /// Upper edge at column x, or nothing below the ground.
+  /// Upper edge at column x; 0 beside the grain.
   double top_at(double x) const;
 };
 
-/// Heap's grains, the farthest from the camera first.
+/// The heap's grains, the farthest from the camera first.
 ///
 /// Grains of the outline touch the profile from below, so that their envelope follows it without
 /// bias; the others lie wholly inside.

@@ -20,7 +20,7 @@ constexpr float kLamp[3] = {-0.40F, 0.62F, 0.675F};
 constexpr float kHalfway[3] = {-0.22F, 0.34F, 0.914F};  ///< between lamp and camera
 constexpr float kAmbient = 0.30F;
 
-/// Surface light at (u, v) of the unit disc, axes turned by (cosine, sine).
+/// Surface light at (u, v) of the unit disc, with axes rotated by (cosine, sine).
 cv::Vec3f shade(const Material& material, float u, float v, float cosine, float sine) {
   const float depth = std::sqrt(std::max(0.02F, 1 - u * u - v * v));
   const float right = u * cosine - v * sine;

@@ -7,7 +7,7 @@
 #include "tests/support/heap_grains.h"
 #include "tests/support/heap_scene.h"
 
-/// The stage is a 32-bit BGR matrix of light (linear, 1 = white paper), rows from the top.
+/// The stage is a 32-bit float BGR matrix of light (linear, 1 = white paper), rows from the top.
 namespace repose::testing {
 
 /// sRGB to light.
@@ -17,11 +17,11 @@ struct Stage {
   cv::Size size;
   cv::Mat light;
   double ground_y = 0;   ///< row of the ground line, from the top
-  double margin_px = 0;  ///< round the picture
+  double margin_px = 0;  ///< around the picture
 };
 
-/// With nothing painted yet. Its margin is enough for the corners not to show when the picture is
-/// turned.
+/// A stage with nothing painted yet. Its margin is wide enough to keep the corners out of a rotated
+/// picture.
 Stage empty_stage(const HeapScene& scene);
 
 /// Paints grains in their order, each shaded like an ellipsoid lit from the upper left.
@@ -30,7 +30,7 @@ void paint_grains(Stage& stage, const std::vector<Grain>& grains, const GrainLoo
 /// Black grains, for silhouettes.
 void paint_black(Stage& stage, const std::vector<Grain>& grains);
 
-/// Fills what lies well inside the outline with the dark between grains.
+/// Fills the area well inside the outline with the dark colour seen between grains.
 void paint_core(Stage& stage, const HeapProfile& profile, const Color& color);
 
 }  // namespace repose::testing

@@ -58,7 +58,7 @@ constexpr std::array<Color, 4> kTables = {{
     {0.36, 0.30, 0.26},
 }};
 
-/// A shaded grain reflects this part of its colour's light, on average.
+/// A shaded grain reflects this fraction of its colour's light, on average.
 constexpr float kShadedPart = 0.55F;
 
 cv::Vec3f lab_of(const Color& color, float part) {

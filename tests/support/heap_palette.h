@@ -8,8 +8,9 @@ namespace repose::testing {
 /// Perceived difference (CIE 1976) between grains, as shaded, and a flat colour.
 double contrast(const Color& grain, const Color& flat);
 
-/// Chooses grains, backdrop, plate and table that a person can tell apart: the contrast between
-/// grains and backdrop lies in the range, grains and plate differ by at least its lower half.
+/// Chooses colours of grains, backdrop, plate and table that a person can tell apart: the contrast
+/// between grains and backdrop lies in the range, that between grains and plate is at least half
+/// its lower end.
 void choose_colors(HeapScene& scene, double least_contrast, double most_contrast, Random& random);
 
 }  // namespace repose::testing

@@ -36,7 +36,7 @@ void paint_silhouette(Stage& stage, const HeapProfile& profile, const std::vecto
   paint_black(stage, grains);
 }
 
-/// Fills in the numbers that are known before anything is painted.
+/// The numbers that are known before anything is painted.
 DrawnHeap truth_of(const HeapScene& scene, const HeapProfile& profile, const Stage& stage,
                    const std::vector<Grain>& grains) {
   const auto place = [&](Point p) {

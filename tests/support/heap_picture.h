@@ -11,10 +11,10 @@ namespace repose::testing {
 
 struct DrawnHeap {
   vision::Picture picture;
-  std::optional<double> left_rad;   ///< from the ground line; empty when there is no such flank
-  std::optional<double> right_rad;  ///< likewise
-  double ground_tilt_rad = 0;       ///< > 0: right end lower
-  vision::Segment ground;           ///< under the base [px]
+  std::optional<double> left_rad;             ///< from the ground line; std::nullopt: no such flank
+  std::optional<double> right_rad;            ///< likewise
+  double ground_tilt_rad = 0;                 ///< > 0: right end lower
+  vision::Segment ground;                     ///< under the base [px]
   std::optional<vision::Segment> left_line;   ///< HeapProfile::flank, toe first [px]
   std::optional<vision::Segment> right_line;  ///< likewise
   std::vector<vision::Point>
@@ -26,10 +26,10 @@ struct DrawnHeap {
   std::optional<double> mean_rad() const;
 };
 
-/// All but the picture, which takes the time.
+/// Everything except the picture, which takes most of the time.
 DrawnHeap heap_truth(const HeapScene& scene);
 
-/// Same scene, same picture.
+/// The same scene gives the same picture.
 DrawnHeap draw_heap(const HeapScene& scene);
 
 }  // namespace repose::testing

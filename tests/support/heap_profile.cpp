@@ -11,7 +11,7 @@ using vision::Segment;
 
 constexpr double kStep = 0.5;
 constexpr double kStraightTo = 0.85;
-/// A grain needs this many pixels to look like one.
+/// A grain needs this diameter [px] to look like one.
 constexpr double kSmallestGrain = 4;
 
 Point between(Point a, Point b, double t) { return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)}; }
@@ -64,7 +64,7 @@ void HeapProfile::lay_heap(const HeapForm& form) {
   add_toe(form, Side::right);
 }
 
-/// As straight flanks, its own are rounded off by a curve that is tangent to both.
+/// Like straight flanks, hollow ones are rounded off by a curve that is tangent to both.
 void HeapProfile::lay_hollow(const HeapForm& form) {
   const FlankLaw law(form.flanks, form.hollow);
   const double highest = 1 - form.crest;

@@ -26,10 +26,10 @@ class HeapProfile {
   double left_toe_x() const { return left_toe_x_; }    ///< where the flank meets the ground
   double right_toe_x() const { return right_toe_x_; }  ///< likewise
 
-  /// A flank's angle by its definition; empty when the shape has no such flank.
+  /// A flank's angle by its definition; std::nullopt if the shape has no such flank.
   std::optional<EdgeAngle> angle(Side side) const;
 
-  /// The straight part of a flank, toe first; of a hollow one from 20 to 80 % of the height.
+  /// The straight part of a flank, toe first; for a hollow one, from 20 to 80 % of the height.
   std::optional<vision::Segment> flank(Side side) const;
 
  private:

@@ -9,8 +9,8 @@
 
 namespace repose::testing {
 
-/// Random numbers that are the same on every platform: the standard fixes the engine's bits but
-/// not what its distributions make of them, so the mapping is our own.
+/// Random numbers that are the same on every platform: the standard fixes the engine's output but
+/// not its distributions' algorithms, so the mapping is our own.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -19,7 +19,7 @@ class Random {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
 
-  /// Both ends included.
+  /// Including both ends.
   int integer(int low, int high) {
     return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }

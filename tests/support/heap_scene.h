@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-/// What a drawn picture shows. Everything random about a picture follows from its scene, so the
-/// same scene is the same picture.
+/// Describes a drawn picture. Everything random about a picture follows from its scene, so the same
+/// scene gives the same picture.
 namespace repose::testing {
 
 /// sRGB, 0 to 1.
@@ -34,15 +34,15 @@ enum class Tube { none, steel, acrylic };
 /// The heap's geometry. Lengths are fractions, so that a scene can be drawn at any size.
 struct HeapForm {
   Shape shape = Shape::heap;
-  double left_rad = 0.45;  ///< of the line from toe to apex: a straight flank's angle
+  double left_rad = 0.45;  ///< of the line from toe to apex; for a straight flank, its angle
   double right_rad = 0.45;
   Flanks flanks = Flanks::straight;
-  double hollow = 1;           ///< FlankLaw's
+  double hollow = 1;           ///< see FlankLaw
   double base = 0.6;           ///< width of the base / width of the picture
   double center = 0.5;         ///< middle of the base / width of the picture
   double grains_high = 30;     ///< height of the heap / mean grain diameter
   double roughness = 1;        ///< of the outline, 0 (grains touch the line) to 1
-  double crest = 0.18;         ///< part of the uncut cone's height that is rounded off
+  double crest = 0.18;         ///< fraction of the uncut cone's height that is rounded off
   double toe_height = 0;       ///< concave toe begins here / height; 0 is a straight toe
   double toe_runout = 0;       ///< how far the concave toe runs out / half base
   double apron = 0;            ///< length of the thin layer beyond each toe / half base
@@ -69,7 +69,7 @@ struct Surroundings {
   Color backdrop = {0.75, 0.75, 0.76};
   Color plate = {0.65, 0.66, 0.68};
   Color table = {0.3, 0.3, 0.32};
-  double ground = 0.8;        ///< height of the ground line from the top / height of the picture
+  double ground = 0.8;        ///< ground line, from the top / height of the picture
   double plate_thick = 0.04;  ///< / height of the picture
   Texture texture = Texture::none;
   double texture_strength = 0;  ///< standard deviation / brightness

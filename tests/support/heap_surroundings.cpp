@@ -22,7 +22,7 @@ void modulate(cv::Mat light, const cv::Mat& field, double strength) {
   }
 }
 
-/// Blends a flat colour in; rows may be fractions.
+/// Blends in a flat colour; rows may be fractional.
 void fill_rows(Stage& stage, double from, double to, const cv::Vec3f& light) {
   const int last = std::min(stage.light.rows, static_cast<int>(std::ceil(to)));
   for (int row = std::max(0, static_cast<int>(from)); row < last; ++row) {
@@ -35,7 +35,7 @@ void fill_rows(Stage& stage, double from, double to, const cv::Vec3f& light) {
   }
 }
 
-/// Upright strip whose light depends on the position across it (0 to 1); columns may be fractions.
+/// Upright strip whose light depends on the position across it (0 to 1); columns may be fractional.
 template <class LightAcross>
 void fill_strip(Stage& stage, double left, double right, double top, double bottom, double opacity,
                 LightAcross light_across) {
@@ -53,7 +53,7 @@ void fill_strip(Stage& stage, double left, double right, double top, double bott
   }
 }
 
-/// Soft shadow with the heap's own outline, thrown sideways and a little larger or smaller.
+/// Soft shadow with the heap's own outline, cast sideways and slightly larger or smaller.
 void darken_by_shadow(Stage& stage, const HeapScene& scene, const HeapProfile& profile,
                       Random& random) {
   const double sign = scene.around.shadow == Side::left ? -1 : 1;
@@ -71,7 +71,7 @@ void darken_by_shadow(Stage& stage, const HeapScene& scene, const HeapProfile& p
   modulate(stage.light, mask, -scene.around.shadow_strength);
 }
 
-/// Mirror image of what stands on the plate, fading and blurring downwards.
+/// Mirror image of the objects on the plate, fading and blurring downwards.
 void mirror_below(Stage& stage, const cv::Vec3f& plate, double strength) {
   const int ground = static_cast<int>(std::lround(stage.ground_y));
   const int rows = std::min(stage.light.rows - ground, ground);

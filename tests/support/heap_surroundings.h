@@ -18,7 +18,7 @@ void paint_tube(Stage& stage, const HeapScene& scene, const HeapProfile& profile
 /// Upright ruler beside the heap.
 void paint_ruler(Stage& stage, const HeapScene& scene, const HeapProfile& profile, Random& random);
 
-/// Walls a half heap or a column leans on.
+/// Walls that a half heap or a column leans against.
 void paint_walls(Stage& stage, const HeapScene& scene, const HeapProfile& profile);
 
 /// Front edge of the plate and the table below; covers what reaches below the ground line.

@@ -24,7 +24,7 @@ cv::Mat mottle(cv::Size size, double scale_px, Random& random) {
   return field;
 }
 
-/// Threads over and under each other, unevenly thick and dyed.
+/// Interwoven threads of uneven thickness and dye.
 cv::Mat weave(cv::Size size, double scale_px, Random& random) {
   const double pitch = 1.6 * scale_px;
   cv::Mat field = 0.5 * smooth_noise(size, 30 * scale_px, scale_px, random) +
@@ -40,7 +40,7 @@ cv::Mat weave(cv::Size size, double scale_px, Random& random) {
   return field;
 }
 
-/// Grain lines that run along, bent by slow noise, between boards.
+/// Lengthwise grain lines, bent by low-frequency noise, between boards.
 cv::Mat wood(cv::Size size, double scale_px, Random& random) {
   const cv::Mat bend = smooth_noise(size, 60 * scale_px, 25 * scale_px, random);
   cv::Mat field = 0.7 * smooth_noise(size, 40 * scale_px, scale_px, random) +

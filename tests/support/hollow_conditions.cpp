@@ -10,7 +10,7 @@
 namespace repose::testing {
 namespace {
 
-/// The crest is rounded off above the window, so that the law alone bends the flank within it.
+/// The crest is rounded off above the window, so that only the law bends the flank within it.
 void hollow_out(HeapForm& form, Flanks flanks, Random& random) {
   choose_angles(form, radians(random.uniform(14, 30)), radians(1.5), random);
   const double chord_slope = std::tan((form.left_rad + form.right_rad) / 2);
@@ -22,7 +22,7 @@ Flanks any_law(Random& random) {
   return random.pick(std::array{Flanks::power, Flanks::exponential});
 }
 
-/// Rough, and one that chance has not taken off its flanks: see settle().
+/// Rough, but without chance deviations from its flanks: see settle().
 void make_of_few_grains(HeapScene& scene, Random& random) {
   scene.form.grains_high = random.uniform(6, 12);
   scene.form.roughness = 1;

@@ -4,16 +4,16 @@
 
 #include "tests/support/heap_scene.h"
 
-/// Heaps whose flanks are no straight lines, and heaps of few grains.
+/// Heaps whose flanks are not straight, and heaps of few grains.
 namespace repose::testing {
 
 HeapScene hollow_power(std::uint64_t seed);
 HeapScene hollow_exponential(std::uint64_t seed);
 
-/// Its crest is where it meets the wall, as in a tank that is emptied through its floor.
+/// Its crest is at the wall, as in a tank that is emptied through its floor.
 HeapScene hollow_half_heap(std::uint64_t seed);
 
-/// One to two grains lie on the ground far beyond the toe. They are not of the flank.
+/// A layer of one to two grains extends far beyond the toe. It is not part of the flank.
 HeapScene hollow_apron(std::uint64_t seed);
 
 HeapScene few_grains(std::uint64_t seed);

@@ -7,13 +7,13 @@
 #include "render/scene/scene.h"
 #include "tests/support/heap_random.h"
 
-/// Scenes to draw that need no simulation.
+/// Scenes to draw without a simulation.
 namespace repose::testing {
 
 inline constexpr double kNutLength_m = 22.48e-3;
 inline constexpr double kNutWidth_m = 18.23e-3;
 
-/// A hazelnut: a surface, and two spheres for it.
+/// A hazelnut: its surface, and two spheres that represent it.
 inline dem::ClumpShape nut() {
   dem::ClumpShape shape;
   shape.surface = dem::calliper_surface({.length_m = kNutLength_m,
@@ -43,7 +43,7 @@ inline dem::Quaternion any_orientation(Random& random) {
 }
 
 /// Nuts in layers, within a cone of that angle, on a plate: `across` of them along the base's
-/// diameter. They do not touch like real ones, but look like a heap.
+/// diameter. They do not touch as real ones do, but look like a heap.
 inline render::Scene nut_heap(int across, double angle_rad, std::uint64_t seed) {
   render::Scene scene{.shapes = {nut()}, .grains = {}, .walls = {}};
   const double step = .95 * kNutWidth_m, radius = .5 * across * step;
@@ -55,7 +55,7 @@ inline render::Scene nut_heap(int across, double angle_rad, std::uint64_t seed) 
     const double shift = (layer % 2) * .5 * step;
     for (int i = -across; i <= across; ++i) {
       for (int j = -across; j <= across; ++j) {
-        // One by one: compilers draw a call's arguments in different orders.
+        // One by one: the evaluation order of a call's arguments depends on the compiler.
         const double y = j * step + shift + .1 * step * random.uniform(-1, 1);
         const double x = i * step + shift + .1 * step * random.uniform(-1, 1);
         const dem::Vector place(x, y, z);
@@ -71,7 +71,7 @@ inline render::Scene nut_heap(int across, double angle_rad, std::uint64_t seed) 
   return scene;
 }
 
-/// Spheres of one size at these places.
+/// Spheres of equal size at these places.
 inline render::Scene sphere_scene(double radius_m, const std::vector<dem::Vector>& places) {
   render::Scene scene{.shapes = {dem::sphere_shape(radius_m)}, .grains = {}, .walls = {}};
   for (const dem::Vector& place : places) {

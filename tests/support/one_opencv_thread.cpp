@@ -1,7 +1,7 @@
 #include <opencv2/core/utility.hpp>
 
-// Linked into what runs under the thread sanitizer. OpenCV is compiled without it, and what its own
-// threads do would be reported as races with what follows them.
+// Linked into programs that run under the thread sanitizer. OpenCV is compiled without it, so its
+// own threads would be reported as racing with the code that follows them.
 
 namespace {
 

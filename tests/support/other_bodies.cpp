@@ -5,7 +5,7 @@
 
 namespace repose::testing {
 
-/// Stands, or lies with its legs under it.
+/// Stands, or lies with its legs tucked under.
 void draw_animal(Canvas& canvas, Random& random) {
   const double ground = random.chance(.6) ? outdoors(canvas, random) : indoors(canvas, random);
   const double size = random.uniform(.4, .7);
@@ -41,7 +41,7 @@ void draw_animal(Canvas& canvas, Random& random) {
   canvas.stroke({at(-.43, .85 * back), at(-.55, .7 * back), at(-.58, .4 * back)}, .03 * size, fur);
 }
 
-/// A forearm from a side, and a hand with its fingers out.
+/// A forearm from one side, and a hand with spread fingers.
 void draw_hand(Canvas& canvas, Random& random) {
   indoors(canvas, random);
   const double high = canvas.height();

@@ -7,7 +7,7 @@
 namespace repose::testing {
 namespace {
 
-/// Where something stands that is as wide as it is said.
+/// Random left edge of an object of this width.
 double any_left(double width, Random& random) {
   return .5 - width / 2 + random.uniform(-.45, .45) * (.95 - width);
 }
@@ -57,7 +57,7 @@ void draw_tiled_roof(Canvas& canvas, Random& random) {
   house(canvas, roof, of_pattern(Pattern::bricks, random.uniform(.1, .3), random), random);
 }
 
-/// Its eaves are on the ground; sometimes with a gable's door.
+/// Its eaves are on the ground; sometimes with a door in the gable.
 void draw_roof_on_ground(Canvas& canvas, Random& random) {
   const double ground = outdoors(canvas, random);
   const double width = random.uniform(.4, .75);
@@ -74,7 +74,7 @@ void draw_roof_on_ground(Canvas& canvas, Random& random) {
   }
 }
 
-/// Two of its faces are seen, or one.
+/// One or two of its faces are visible.
 void draw_pyramid(Canvas& canvas, Random& random) {
   const double ground = random.chance(.7) ? outdoors(canvas, random) : indoors(canvas, random);
   const double width = random.uniform(.4, .75);

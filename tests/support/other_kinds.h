@@ -2,7 +2,7 @@
 
 #include "tests/support/canvas.h"
 
-/// Things that are no heaps. Those said to be hard have straight or hollow flanks that stand on a
+/// Objects that are not heaps. Those marked as hard have straight or hollow flanks that stand on a
 /// ground line.
 namespace repose::testing {
 

@@ -7,7 +7,7 @@
 namespace repose::testing {
 namespace {
 
-/// Halves every edge and moves its middle up or down.
+/// Repeatedly halves every edge and moves its middle up or down.
 Places rugged(Places ridge, double roughness, Random& random) {
   for (int round = 0; round < 6; ++round) {
     Places finer = {ridge.front()};
@@ -53,7 +53,7 @@ void leafy_tree(Canvas& canvas, Place foot, double high, const Paint& paint, Ran
 
 }  // namespace
 
-/// Ridges behind each other, the farther the hazier; sometimes one great peak.
+/// Ridges one behind another, hazier with distance; sometimes one great peak.
 void draw_mountains(Canvas& canvas, Random& random) {
   const double ground = outdoors(canvas, random);
   const int layers = random.integer(1, 4);

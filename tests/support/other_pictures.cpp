@@ -42,7 +42,7 @@ constexpr std::array kKinds = {
     OtherKind{"hand", draw_hand},
 };
 
-/// Cameras of all sorts, from good ones to old telephones.
+/// Cameras of all kinds, from good ones to old phones.
 HeapScene any_camera(std::string_view kind, std::uint64_t seed, Random& random) {
   HeapScene scene;
   scene.condition = kind;

@@ -18,7 +18,7 @@ struct OtherKind {
 /// All kinds, in the order of reports.
 std::span<const OtherKind> other_kinds();
 
-/// Same kind and seed, same picture.
+/// The same kind and seed give the same picture.
 vision::Picture draw_other(const OtherKind& kind, std::uint64_t seed);
 
 }  // namespace repose::testing

@@ -72,7 +72,7 @@ void draw_boxes(Canvas& canvas, Random& random) {
   }
 }
 
-/// Lie on each other, or lean.
+/// Stacked, or leaning.
 void draw_books(Canvas& canvas, Random& random) {
   const double ground = indoors(canvas, random);
   const bool is_pile = random.chance(.6);
@@ -97,7 +97,7 @@ void draw_books(Canvas& canvas, Random& random) {
   }
 }
 
-/// Thrown down: a smooth hump with folds that run down from its top.
+/// A dropped cloth: a smooth hump with folds that run down from its top.
 void draw_cloth(Canvas& canvas, Random& random) {
   const double ground = indoors(canvas, random);
   const double middle = random.uniform(.4, .6);

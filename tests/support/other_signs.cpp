@@ -46,7 +46,7 @@ void draw_warning_sign(Canvas& canvas, Random& random) {
               {.color = {.06, .06, .06}});
 }
 
-/// Big, many with sloping strokes.
+/// Large, many with sloping strokes.
 void draw_letters(Canvas& canvas, Random& random) {
   if (random.chance(.5)) {
     plain_sheet(canvas, random);
@@ -66,7 +66,7 @@ void draw_letters(Canvas& canvas, Random& random) {
   canvas.write(word, at, size, font, {.color = any_color(random), .contrast = .1});
 }
 
-/// Flat shapes of a few colours, some standing on a line.
+/// Flat shapes in a few colours, some standing on a line.
 void draw_logo(Canvas& canvas, Random& random) {
   plain_sheet(canvas, random);
   const double base = canvas.height() * random.uniform(.6, .8);

@@ -7,7 +7,7 @@
 namespace repose::testing {
 namespace {
 
-constexpr double kOutside = .1;  // a rolled picture shows this much of what is beyond its sides
+constexpr double kOutside = .1;  // a rolled picture shows this much beyond its sides
 
 Places across(double top, double bottom) {
   return rectangle({-kOutside, top}, {1 + kOutside, bottom});
@@ -30,7 +30,7 @@ void clutter(Canvas& canvas, double ground, Random& random) {
   }
 }
 
-/// A line of hills, the farther the paler.
+/// A ridge of hills, partly transparent.
 void hills(Canvas& canvas, double ground, const Color& color, Random& random) {
   Places ridge = {{-kOutside, ground}};
   const double phase = random.uniform(0, 6);
@@ -90,7 +90,7 @@ double indoors(Canvas& canvas, Random& random) {
   if (random.chance(.35)) clutter(canvas, ground, random);
   const Paint floor = any_paint(random);
   canvas.fill(across(ground, high + kOutside), floor);
-  if (random.chance(.5)) {  // a board's front edge, and what is below it
+  if (random.chance(.5)) {  // a board's front edge, and the area below it
     const double edge = ground + random.uniform(.02, .06);
     canvas.fill(across(edge, high + kOutside), smooth_paint(random));
   }

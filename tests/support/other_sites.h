@@ -2,7 +2,7 @@
 
 #include "tests/support/canvas.h"
 
-/// Where things stand that are no heaps, and what they are painted with.
+/// Settings and paints for objects that are not heaps.
 namespace repose::testing {
 
 Color any_color(Random& random);
@@ -13,15 +13,15 @@ Paint patterned_paint(Random& random);
 Paint any_paint(Random& random);
 Color times(const Color& color, double light);
 
-/// A wall, and a floor or table before it, with clutter on some; returns the ground's height.
+/// A wall with a floor or table in front, some with clutter; returns the ground's height.
 double indoors(Canvas& canvas, Random& random);
-/// Sky and ground, with hills on some; returns the ground's height.
+/// Sky and ground, some with hills; returns the ground's height.
 double outdoors(Canvas& canvas, Random& random);
 
 /// Six-sided box whose front stands on `ground`, with its top and one side in perspective.
 void stand_box(Canvas& canvas, double left, double ground, double width, double height,
                const Paint& paint, Random& random);
-/// Soft shadow on the ground below what stands there.
+/// Soft shadow on the ground below an object.
 void ground_shadow(Canvas& canvas, double left, double right, double ground, Random& random);
 
 }  // namespace repose::testing

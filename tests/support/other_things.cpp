@@ -7,7 +7,7 @@
 namespace repose::testing {
 namespace {
 
-/// A truncated cone, some squat as a hat; bands of another colour on its body.
+/// A truncated cone, sometimes as squat as a hat; bands of another colour on its body.
 void cone(Canvas& canvas, bool has_bands, Random& random) {
   const double ground = random.chance(.6) ? outdoors(canvas, random) : indoors(canvas, random);
   const double half = random.uniform(.1, .32);
@@ -58,7 +58,7 @@ void bottle(Canvas& canvas, double middle, double ground, double high, Random& r
       smooth_paint(random));
 }
 
-/// Wider above than below, or the other way round.
+/// Wider at the top than at the bottom, or the other way round.
 void cup(Canvas& canvas, double middle, double ground, double high, Random& random) {
   const double below = high * random.uniform(.3, .8);
   const double above = high * random.uniform(.3, .8);
@@ -91,7 +91,7 @@ void draw_bottles(Canvas& canvas, Random& random) {
   }
 }
 
-/// Round and oval, and halves as of bowls turned over.
+/// Round and oval ones, and halves like upturned bowls.
 void draw_balls(Canvas& canvas, Random& random) {
   const double ground = indoors(canvas, random);
   const int count = random.integer(1, 3);

@@ -67,7 +67,7 @@ void draw_patterned_wedge(Canvas& canvas, Random& random) {
   wedge(canvas, patterned_paint(random), random);
 }
 
-/// They lie on a board that is seen from above, or lean on a wall.
+/// Lying on a board that is seen from above, or leaning against a wall.
 void draw_tools(Canvas& canvas, Random& random) {
   const double high = canvas.height();
   if (random.chance(.5)) {
@@ -90,7 +90,7 @@ void draw_tools(Canvas& canvas, Random& random) {
   }
 }
 
-/// An inclined belt on legs, from the ground up, sometimes two that meet.
+/// An inclined belt on legs, rising from the ground; sometimes two that meet.
 void draw_conveyor(Canvas& canvas, Random& random) {
   const double ground = random.chance(.5) ? outdoors(canvas, random) : indoors(canvas, random);
   const Paint frame = smooth_paint(random);

@@ -9,7 +9,7 @@
 namespace repose::testing {
 namespace {
 
-/// From -1 to 1, the same for the same stone.
+/// From -1 to 1, constant for each stone.
 double shade_of(int row, int column) {
   const auto mixed = (static_cast<std::uint64_t>(row + 5000) * 0x9E3779B97F4A7C15) ^
                      (static_cast<std::uint64_t>(column + 5000) * 0xC2B2AE3D27D4EB4F);

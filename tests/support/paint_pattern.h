@@ -8,7 +8,7 @@ namespace repose::testing {
 
 enum class Pattern { plain, noise, fabric, wood, bricks, tiles, stripes, planks };
 
-/// Change of the light, about 1 in size; `scale_px` is a thread, a brick's height, half a stripe.
+/// Change of the light, of order 1; `scale_px` is a thread, a brick's height, half a stripe.
 cv::Mat pattern_field(Pattern pattern, cv::Size size, double scale_px, Random& random);
 
 }  // namespace repose::testing

@@ -18,12 +18,12 @@
 #include "base/base64.h"
 #include "dem/shape/clump/clump_shape.h"
 
-/// Files of particles as simulation programs write them, made from a heap that is made up.
+/// Particle files as simulation programs write them, made from a synthetic heap.
 namespace repose::testing {
 
 using Spheres = std::vector<dem::ClumpSphere>;
 
-/// Spheres in close-packed layers in a cone on the plate z = 0, each a little off its place.
+/// Spheres in close-packed layers in a cone on the plate z = 0, each slightly displaced.
 inline Spheres packed_cone(double angle_deg, double height_m, double radius_m) {
   std::mt19937 random(5);
   const auto off = [&] { return .04 * radius_m * (static_cast<double>(random()) / 0x1p32 - .5); };
@@ -53,9 +53,9 @@ inline Spheres moved(Spheres spheres, const dem::Vector& by) {
 
 // Tables.
 
-/// How a table looks; the numbers are those of the spheres, in `per_m` to a metre.
+/// The format of a table; its numbers are those of the spheres, in units of 1 / `per_m` metres.
 struct TableLook {
-  std::string header;          ///< as it stands in the file, with its line end
+  std::string header;          ///< verbatim, with its line end
   std::string order = "xyzr";  ///< d: diameter, i: its number, g: its grain, -: text
   std::string between = ",";
   double per_m = 1;
@@ -145,7 +145,7 @@ struct LegacyLook {
   bool is_grid = false;    ///< UNSTRUCTURED_GRID
   bool has_field = false;  ///< radii in a FIELD, not as SCALARS
   bool is_double = false;
-  bool has_offsets = false;  ///< cells as version 5.1 has them
+  bool has_offsets = false;  ///< cells as in version 5.1
 };
 
 inline std::string legacy_vtk(const Spheres& spheres, const LegacyLook& look) {
@@ -204,7 +204,7 @@ struct XmlLook {
   bool is_polydata = false;
 };
 
-/// Pieces of a file's bytes, each compressed by itself.
+/// Blocks of a file's bytes, each compressed separately.
 inline std::vector<std::string> packed_blocks(const std::string& bytes, std::size_t block_bytes) {
   std::vector<std::string> blocks;
   for (std::size_t at = 0; at < bytes.size(); at += block_bytes) {
@@ -280,13 +280,13 @@ inline std::string xml_vtk(const Spheres& spheres, const XmlLook& look) {
   return text + "</VTKFile>\n";
 }
 
-// What EDEM exports.
+// EDEM's exports.
 
 struct EdemLook {
   bool has_columns = false;
   std::string between = ",";
   std::string size = "Particle Radius";
-  std::string unit = "";  ///< " (mm)", behind each name
+  std::string unit = "";  ///< " (mm)", after each name
   double per_m = 1;
 };
 

@@ -14,21 +14,21 @@
 namespace repose::testing {
 
 struct Finished {
-  int exit_code = -1;  ///< 127 when the program could not be started
+  int exit_code = -1;  ///< 127 if the program could not be started
   std::string out;
   std::string err;
   double elapsed_s = 0;
   double cpu_s = 0;
 };
 
-/// Where a process writes to: files, so that neither is a terminal to it.
+/// A process's output files: it must not see a terminal.
 struct Logs {
   TemporaryFolder folder;
   std::string out = folder.path() / "out";
   std::string err = folder.path() / "err";
 };
 
-/// Makes the process at hand write there and work in `folder`. @return whether it does
+/// Redirects the current process's output there and changes to `folder`. @return whether it worked
 inline bool enter(const std::string& folder, const std::string& out, const std::string& err) {
   constexpr int kReadableByOwner = 0600;
   return ::chdir(folder.c_str()) == 0 &&

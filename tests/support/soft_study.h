@@ -4,7 +4,7 @@
 
 namespace repose::testing {
 
-/// What grains are made of, all soft, and a wall.
+/// Soft material for the grains, and a wall.
 inline const std::string kSoftMatter = R"(
 density_kg_m3 = 850
 young_modulus_pa = 1e6
@@ -14,17 +14,17 @@ young_modulus_pa = 1e9
 poisson_ratio = 0.3
 )";
 
-/// Grains of two spheres: runs take a fraction of a second, heaps some seconds.
+/// Grains of two spheres: runs take a fraction of a second, heaps a few seconds.
 inline const std::string kSoftNuts = R"([particle]
 size_mm = [22.5, 18.2, 17.5]
 spheres = 2)" + kSoftMatter;
 
-/// Balls, which are made at once.
+/// Balls, which need no sphere fit.
 inline const std::string kSoftBalls = R"([particle]
 size_mm = [18, 18, 18]
 spheres = 1)" + kSoftMatter;
 
-/// So rough that few grains make a heap that can be measured in pictures.
+/// Rough enough for a few grains to form a heap that can be measured in pictures.
 inline const std::string kRoughContacts = R"([contact.particle_wall]
 restitution = 0.3
 sliding_friction = 0.8

@@ -7,7 +7,7 @@
 
 #include "dem/shape/clump/clump_shape.h"
 
-/// Heaps of small spheres whose surface is known.
+/// Heaps of small spheres with known surfaces.
 namespace repose::testing {
 
 /// A cone of small spheres whose surface is the cone's, to within the spheres' bumps.

@@ -13,7 +13,7 @@
 
 namespace repose::testing {
 
-/// An empty folder of its own for a test, removed with all that is in it.
+/// An empty folder for a test, removed with its contents on destruction.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -38,7 +38,7 @@ class TemporaryFolder {
     return write(name, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
   }
 
-  /// Names of what is in it, also hidden files.
+  /// Names of its entries, including hidden files.
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) {
@@ -52,7 +52,7 @@ class TemporaryFolder {
 };
 
 inline std::string text_of(const std::filesystem::path& file) {
-  // Not byte by byte: tests are not optimised.
+  // Not byte by byte: tests are compiled without optimisation.
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return std::move(text).str();

@@ -1,4 +1,4 @@
-// A browser's page that notes what it must not do: tell of an error, or ask elsewhere.
+// A browser page that records forbidden events: errors, and requests to elsewhere.
 export const openWatched = async (browser, address, {width, patience_ms, isOwn}) => {
   const page = await browser.newPage();
   page.setDefaultTimeout(patience_ms);

@@ -1,4 +1,4 @@
-// The files in a ZIP file, by their names: what unzip would give.
+// The files in a ZIP file by name, as unzip would extract them.
 import {inflateRawSync} from 'node:zlib';
 
 const kDirectoryEntry = 0x02014b50, kStored = 0;

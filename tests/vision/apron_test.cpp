@@ -31,7 +31,7 @@ struct Measured {
   double interval_rad = 0;
 };
 
-/// Of the right flank of a heap that falls as `height(u)`, as far as that is above 0.
+/// The right flank of a heap that falls as `height(u)`, where that is above 0.
 template <class Height>
 Measured measured_flank(Height height, double grain) {
   const Profile profile = profile_of(1200, [&](double along) {
@@ -43,12 +43,12 @@ Measured measured_flank(Height height, double grain) {
   return {choice.best.right, uncertainty_of(choice).right_rad};
 }
 
-/// What the flank above an apron is like.
+/// The flank above an apron.
 struct Heap {
   const char* name;
   FlankLaw law;
   double grain;
-  double bumps = 0;  ///< of the edge: half their height / grain
+  double bumps = 0;  ///< amplitude of the edge's bumps / grain
 
   double flank(double u) const { return u < kLength ? kHeight * law.height(u / kLength) : 0; }
   double place(double height) const { return kLength * law.out_at(height / kHeight); }
@@ -59,7 +59,7 @@ struct Heap {
 
 std::ostream& operator<<(std::ostream& out, const Heap& heap) { return out << heap.name; }
 
-/// A heap's edge with a foot of which one thing is changed step by step.
+/// A heap's edge with a foot, one property of which is changed step by step.
 using Foot = std::function<double(const Heap& heap, double changed, double u)>;
 
 void expect_no_leap(const Heap& heap, double from, double to, int steps, const Foot& foot) {
@@ -133,11 +133,11 @@ INSTANTIATE_TEST_SUITE_P(Heaps, ApronSteps,
                                                 FlankLaw(Flanks::exponential, 1.5), 11, .2}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-/// The edge of a heap nine grains high, rough as one, with an apron of about two grains, whose
-/// length and thickness are chance.
+/// The rough edge of a heap nine grains high, with an apron of about two grains, of random length
+/// and thickness.
 std::vector<double> repeat(Random& random, bool has_apron) {
   constexpr double kGrain = 12;
-  constexpr int kBump = 8;  // columns that belong together
+  constexpr int kBump = 8;  // correlated columns
   const double thick = has_apron ? kGrain * 2.2 * (1 + random.normal(0, .15)) : 0;
   const double end = kLength * (1 + random.uniform(.2, 1.2));
   std::vector<double> white;
@@ -158,7 +158,7 @@ std::vector<double> repeat(Random& random, bool has_apron) {
 struct Repeats {
   double mean_rad = 0;
   double deviation_rad = 0;
-  int with_both_readings = 0;  ///< in the interval
+  int with_both_readings = 0;  ///< with both in the interval
 };
 
 Repeats repeats(bool has_apron, int count) {
@@ -185,8 +185,8 @@ Repeats repeats(bool has_apron, int count) {
 }
 
 TEST(Apron, RepeatsScatterAsMuchAsTheirFlanksDo) {
-  // Aprons about as thick as a fifth of the height. All columns alike scatter by 6 degrees and
-  // more.
+  // Aprons about a fifth of the height thick. With equal weight for all columns, angles scatter by
+  // 6 degrees and more.
   constexpr int kCount = 40;
   const Repeats without = repeats(false, kCount);
   const Repeats with = repeats(true, kCount);
@@ -212,7 +212,7 @@ TEST(Apron, HardlyCountsAndIsDescribed) {
   EXPECT_FALSE(fit.apron->is_high);
   EXPECT_LT(fit.apron->angle_with_rad, 15 * kDegree);
   EXPECT_NEAR(fit.apron_rad, fit.angle_rad - fit.apron->angle_with_rad, 1e-12);
-  // The points that are said to be fitted end where it begins.
+  // The points reported as fitted end where the apron begins.
   EXPECT_NEAR(fit.height[fit.counted() - 1], 2.2 * kGrain, 3);
 }
 
@@ -233,7 +233,7 @@ TEST(Apron, BelowTheWindowChangesNothing) {
 }
 
 TEST(Apron, FromHighUpIsSaidToBeHigh) {
-  // Nearly level from .4 of the height on.
+  // Nearly level below .4 of the height.
   const auto with_foot = [](double u) {
     return u < 600 ? std::max(kHeight - .5 * u, .4 * kHeight - 0.05 * (u - 132)) : 0;
   };
@@ -244,7 +244,7 @@ TEST(Apron, FromHighUpIsSaidToBeHigh) {
 }
 
 TEST(Apron, BeforeAWallIsNoHeapsFoot) {
-  // What is left of the window without its plate stands upright: no line fits it better.
+  // The rest of the window without the plate is upright: no line fits it better.
   const auto plate = [](double u) { return u < 8 ? kHeight - 9 * u : u < 300 ? .3 * kHeight : 0; };
   const FlankFit fit = measured_flank(plate, 5).fit;
   EXPECT_EQ(fit.status, FlankStatus::absent);
@@ -252,7 +252,7 @@ TEST(Apron, BeforeAWallIsNoHeapsFoot) {
 }
 
 TEST(Apron, OrHollowFootOfFewLargeGrainsIsInTheInterval) {
-  // Too few grains to tell the one from the other: both readings count.
+  // Too few grains to distinguish the two: both readings count.
   const auto with_foot = [](double u) {
     return std::max(0.0, u < 78 ? kHeight - 0.7 * u : 55 - 0.25 * (u - 78));
   };

@@ -33,7 +33,7 @@ Lens known_lens(double focal_uncertainty_px = 5) {
           .k3 = {}};
 }
 
-/// Corners of a board that stands upright before a camera that looks down and is turned.
+/// Corners of an upright board in front of a camera that looks down and is rolled.
 std::vector<SeenCorner> corners_of(double pitch_rad, double roll_rad, double distance_mm,
                                    double noise_px, std::uint64_t seed, double in_plane_rad = 0) {
   testing::Random random(seed);
@@ -65,7 +65,7 @@ TEST(BoardPose, ExactCornersGiveTheCamerasPitchRollAndDistance) {
       const HeapView view = view_of(pose);
       EXPECT_NEAR(view.pitch_rad() / kDegree, pitch_deg, .01);
       EXPECT_NEAR(view.roll_rad() / kDegree, roll_deg, .01);
-      // Of the plane, along its normal: the board's middle is 1200 mm ahead along the axis.
+      // Distance of the plane, along its normal: the board's middle is 1200 mm ahead on the axis.
       EXPECT_NEAR(
           view.distance_mm,
           1200 * std::cos(pitch_deg * kDegree) - view.normal.dot(Eigen::Vector3d(-100, -30, 0)),
@@ -100,7 +100,7 @@ TEST(BoardPose, TheCovarianceIsThatOfManyNoisyCorners) {
     const double error = view_of(pose).pitch_rad() - 4 * kDegree;
     held += std::abs(error) <= kNormal95 * std::sqrt(variance(0, 0)) ? 1 : 0;
   }
-  EXPECT_GE(held, 51);  // 57 expected; fewer than 51 once in a hundred times
+  EXPECT_GE(held, 51);  // 57 expected; fewer than 51 have a probability of 1 %
 }
 
 TEST(BoardPose, WithoutALensThePitchIsUncertainAndTheScaleIsNot) {

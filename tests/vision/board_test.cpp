@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-/// Largest distance of a corner from where the camera has it.
+/// Largest distance of a corner from its true place in the picture.
 double worst_error_px(const std::vector<SeenCorner>& corners, const testing::BoardCamera& camera,
                       const testing::BoardPlace& place) {
   double worst = 0;
@@ -35,7 +35,7 @@ TEST(Board, AllCornersAreFoundWhereTheyAre) {
   const auto place = testing::placed_board({15, -10, 700}, .3, -.2, .1);
   const auto corners = find_board(board_photo(camera, place));
   ASSERT_EQ(corners.size(), static_cast<std::size_t>(kBoardCorners));
-  EXPECT_LT(worst_error_px(corners, camera, place), .4);  // as noise and blur have it
+  EXPECT_LT(worst_error_px(corners, camera, place), .4);  // due to noise and blur
 }
 
 TEST(Board, HalfABoardUpsideDownIsKnownByItsMarkers) {
@@ -49,7 +49,7 @@ TEST(Board, HalfABoardUpsideDownIsKnownByItsMarkers) {
 
 TEST(Board, APictureWithoutOneShowsNone) {
   EXPECT_THAT(find_board(blank_picture(640, 480)), IsEmpty());
-  // A mirror image is another board's.
+  // A mirror image is a different board.
   const testing::BoardCamera camera;
   Picture mirrored = board_photo(camera, testing::placed_board({0, 0, 700}, 0, 0, 0));
   cv::Mat image = mat_of(mirrored);
@@ -59,7 +59,7 @@ TEST(Board, APictureWithoutOneShowsNone) {
 
 TEST(Board, ThePrintedPageShowsAllOfItAtTrueSize) {
   for (const Paper paper : {Paper::a4, Paper::letter}) {
-    constexpr double kDpi = 127;  // five pixels a millimetre
+    constexpr double kDpi = 127;  // five pixels per millimetre
     const Picture page = board_picture(paper, kDpi);
     EXPECT_EQ(page.width, paper == Paper::a4 ? 1485 : 1397);
     const auto corners = find_board(page);

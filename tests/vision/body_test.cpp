@@ -20,7 +20,7 @@ const cv::Scalar kBackdrop{220, 220, 220};
 const cv::Scalar kHeap{60, 90, 120};
 const cv::Scalar kPlate{110, 105, 100};
 
-/// A picture of polygons and what a perfect threshold of it says: dark is inside.
+/// A picture of polygons and its perfect threshold: dark is inside.
 struct PaintedScene {
   cv::Mat3b picture = cv::Mat3b(kRows, kCols, cv::Vec3b(220, 220, 220));
 
@@ -85,7 +85,7 @@ TEST(FindBodies, HolesAreFilled) {
 }
 
 TEST(FindBodies, HolesAreFilledInABodyAtTheFrameAndNothingElse) {
-  // A half heap against the frame's left side: the backdrop is in one piece only above it.
+  // A half heap against the frame's left side: the backdrop is contiguous only above it.
   const Corners half = {{-5, 300}, {-5, 120}, {300, 300}};
   PaintedScene scene;
   scene.paint(half, kHeap).paint(rectangle(5, 220, 20, 20), kBackdrop);
@@ -97,7 +97,7 @@ TEST(FindBodies, HolesAreFilledInABodyAtTheFrameAndNothingElse) {
 }
 
 TEST(FindBodies, ThePlateIsCutOff) {
-  // The segmentation takes the plate for heap; left and right of the heap it is bare.
+  // The segmentation includes the plate in the heap; it is bare left and right of the heap.
   const Corners strip = rectangle(-5, 300, kCols + 10, 30);
   const auto bodies = PaintedScene().paint(strip, kPlate).paint(kTriangleCorners, kHeap).bodies();
   ASSERT_EQ(bodies.size(), 1);
@@ -118,7 +118,7 @@ TEST(FindBodies, ATiltedPlateIsCutOffAlongItsEdge) {
 }
 
 TEST(FindBodies, AnApronOfTheHeapsMaterialIsNotTheGround) {
-  // The same shape as heap and plate, but all of it grains, on a plate that is told from them.
+  // The same shape as heap and plate, but all of grains, on a plate that can be told from them.
   const Corners apron = rectangle(-5, 290, kCols + 10, 14);
   const auto bodies = PaintedScene()
                           .paint(rectangle(-5, 304, kCols + 10, 40), {200, 200, 200})
@@ -170,7 +170,7 @@ TEST(FindBodies, AnExcludedBoxDoesNotTiltTheGround) {
   const WorkingPicture work = working_picture(picture_of(scene.picture), {{130, 285, 150, 40}});
   const auto bodies = find_bodies(scene.segmentation(), work);
   ASSERT_EQ(bodies.size(), 1);
-  // Half of the base is left: a pixel more or less at its end is 0.3 degrees.
+  // Half of the base remains: a pixel more or less at its end is 0.3 degrees.
   EXPECT_NEAR(bodies[0].ground.tilt_rad(), 1 * kDegree, 0.2 * kDegree);
 }
 
@@ -184,7 +184,7 @@ TEST(FindBodies, AHeapCutByTheFramesLowerEdgeHasAGroundOfUnknownTilt) {
   EXPECT_FALSE(bodies[0].ground.bow) << "the base is not seen";
 }
 
-/// The silhouette of a cone seen from above: hull of its apex and its base's ellipse.
+/// The silhouette of a cone seen from above: the hull of its apex and its base's ellipse.
 Corners cone_corners(double pitch_rad) {
   constexpr double kRadius = 200;
   const double height = kRadius * std::tan(30 * kDegree);
@@ -203,7 +203,7 @@ TEST(FindBodies, ABowedBaseTellsTheCamerasPitch) {
   for (const double pitch_deg : {6.0, 12.0, 20.0}) {
     const auto bodies = PaintedScene().paint(cone_corners(pitch_deg * kDegree), kHeap).bodies();
     ASSERT_EQ(bodies.size(), 1);
-    // The rim's far half shows up to the flanks' feet: an arc a little longer than the near half.
+    // The rim's far half is visible up to the flanks' feet: an arc slightly longer than a half.
     EXPECT_NEAR(pitch_from_bow(bodies[0].ground.bow.value()) / kDegree, pitch_deg, 0.1 * pitch_deg);
   }
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr int kHigh = 120;
 constexpr int kWide = 300;
 
-/// A body that fills a picture whose grey levels `shade` gives, but for a margin.
+/// A body that fills a picture, except for a margin, with the grey levels of `shade`.
 template <class Shade>
 BodyTexture texture_in(Shade shade) {
   cv::Mat3b picture(kHigh + 20, kWide + 20, cv::Vec3b(230, 230, 230));

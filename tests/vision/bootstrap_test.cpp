@@ -21,7 +21,7 @@ std::vector<double> positions() {
 }
 
 /// Residuals of the least-squares line through level noise, and that line's slope. The noise is a
-/// moving average over kGrain normal numbers: neighbours belong together.
+/// moving average over kGrain normal numbers, so neighbours are correlated.
 struct Realisation {
   double slope = 0;
   std::vector<double> residual;
@@ -52,7 +52,7 @@ double plain_slope_error(const std::vector<double>& residual) {
 }
 
 TEST(BlockBootstrap, IsTheScatterOfTheSlopeWhereNeighboursBelongTogether) {
-  constexpr int kRealisations = 400;  // their scatter is known to 1 / sqrt(800) = 3.5 %
+  constexpr int kRealisations = 400;  // determine the scatter to 1 / sqrt(800) = 3.5 %
   testing::Random random(7);
   double scatter = 0;
   double bootstrap = 0;
@@ -64,7 +64,7 @@ TEST(BlockBootstrap, IsTheScatterOfTheSlopeWhereNeighboursBelongTogether) {
     bootstrap += error * error / kRealisations;
     plain += std::pow(plain_slope_error(drawn.residual), 2) / kRealisations;
   }
-  // Blocks of twice the correlation's length lose some of it at their ends: a few per cent low.
+  // Blocks of twice the correlation length lose some of it at their ends: a few per cent low.
   EXPECT_NEAR(std::sqrt(bootstrap / scatter), 1, 0.2);
   EXPECT_LT(std::sqrt(plain / scatter), 0.4) << "12 points count as one: sqrt(12) = 3.5 times";
 }

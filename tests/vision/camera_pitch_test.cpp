@@ -24,7 +24,7 @@ double silhouette_angle_rad(double angle_rad, double pitch_rad) {
     const double y = std::sin(around);
     return (height * std::cos(pitch_rad) - y * std::sin(pitch_rad)) / x;
   };
-  // It has one minimum on the right half: search by thirds, down to rounding.
+  // It has one minimum on the right half: ternary search, down to rounding.
   double low = -std::numbers::pi / 2;
   double high = std::numbers::pi / 2;
   for (int i = 0; i < 200; ++i) {
@@ -49,7 +49,7 @@ TEST(CameraPitch, CorrectionUndoesTheProjectionOfACone) {
   }
 }
 
-/// The same from a camera `distance` base radii before the cone's axis, whose picture's middle
+/// The same from a camera `distance` base radii in front of the cone's axis, whose picture's middle
 /// shows the axis `rise` below the apex: the flattest line from the apex to a point of the base.
 double near_silhouette_rad(double angle_rad, double pitch_rad, double distance, double rise) {
   const double height = std::tan(angle_rad);
@@ -104,7 +104,7 @@ TEST(FarCameraError, CoversEveryCameraFromSixBaseRadiiOn) {
       };
       const double nearest = near_silhouette_rad(angle, pitch, kNearestCamera, rise);
       const double bound = far_camera_error(nearest, pitch, rise);
-      // The picture's radii and the axis's distance are the heap's but for a few per cent.
+      // The picture's radii and the axis's distance equal the heap's to within a few per cent.
       EXPECT_NEAR(off_rad(kNearestCamera), bound, 0.1 * bound) << angle_deg << ", " << pitch_deg;
       for (const double distance : {8.0, 15.0, 100.0}) EXPECT_LT(off_rad(distance), bound);
     }
@@ -117,8 +117,8 @@ TEST(FarCameraError, IsNoneForAnApexInThePicturesMiddle) {
   EXPECT_GT(far_camera_error(0.4, 0.1, -0.3), 1e-3);
 }
 
-/// Bow of the base's near rim as that camera sees it, between its widest points in the picture: of
-/// the least-squares parabola, as find_ground takes it.
+/// Bow of the base's near rim as seen by that camera, between its widest points in the picture:
+/// that of the least-squares parabola, as in find_ground.
 double near_bow(double angle_rad, double pitch_rad, double distance, double rise) {
   const double eye_z = std::tan(angle_rad) - rise + distance * std::tan(pitch_rad);
   const double widest = std::asin(1 / (distance + eye_z * std::tan(pitch_rad)));
@@ -134,7 +134,7 @@ double near_bow(double angle_rad, double pitch_rad, double distance, double rise
   const double reach = rim.back().x;
   double product = 0;
   double squares = 0;
-  for (std::size_t i = 1; i < rim.size(); ++i) {  // integrals over the width, by trapezoids
+  for (std::size_t i = 1; i < rim.size(); ++i) {  // integrals over the width, trapezoidal rule
     const double u = (rim[i].x + rim[i - 1].x) / 2 / reach;
     const double du = (rim[i].x - rim[i - 1].x) / reach;
     const double centred = u * u - 1.0 / 3;
@@ -192,7 +192,7 @@ TEST(CameraPitch, LookingUpIsLookingDown) {
 }
 
 /// Bow of the least-squares parabola through a half ellipse of half width 1 and depth `depth`, by
-/// summing over many points: u^2 less its mean 1/3 carries the whole curvature.
+/// summing over many points: u^2 less its mean 1/3 carries all the curvature.
 double bow_of_half_ellipse(double depth) {
   double product = 0;
   double squares = 0;
@@ -207,7 +207,7 @@ double bow_of_half_ellipse(double depth) {
 }
 
 TEST(PitchFromBow, IsThatOfTheBasesRim) {
-  // A circle of radius 1 is seen 2 wide; its near half lies up to sin e below its middle.
+  // A circle of radius 1 appears 2 wide; its near half lies up to sin e below its middle.
   for (const double pitch_deg : {0.0, 3.0, 10.0, 40.0}) {
     const double bow = bow_of_half_ellipse(std::sin(pitch_deg * kDegree));
     EXPECT_NEAR(pitch_from_bow(bow), pitch_deg * kDegree, 1e-6);  // sums of 200,000 points

@@ -67,7 +67,7 @@ TEST(ChooseReading, SegmentationsAgreeOnAClearPicture) {
   EXPECT_LT(choice.disagreement.left_rad, 0.5 * kDegree);
 }
 
-/// A heap of two colours, and what lies beside it.
+/// A black heap on white, with a spot of colour `beside`.
 cv::Mat3b masked_heap(const cv::Scalar& beside) {
   cv::Mat3b picture(400, 600, cv::Vec3b(255, 255, 255));
   const std::vector<std::vector<cv::Point>> heap = {{{120, 320}, {300, 220}, {480, 320}}};
@@ -97,7 +97,7 @@ TEST(ChooseReading, OfTwoColoursHearsWhatAPersonSays) {
 }
 
 TEST(ChooseReading, TakesTheSegmentationThatSeesTheHeap) {
-  // As bright as its backdrop, of another colour: lightness shows nothing.
+  // As bright as its backdrop but of a different colour: lightness shows nothing.
   cv::Mat3b picture(400, 600, cv::Vec3b(150, 130, 130));
   const std::vector<std::vector<cv::Point>> heap = {{{120, 320}, {300, 220}, {480, 320}}};
   cv::fillPoly(picture, heap, {70, 135, 165});
@@ -117,7 +117,7 @@ cv::Mat3b before_the_tables_edge(const cv::Scalar& table) {
 }
 
 TEST(ChooseReading, TakesTheReadingThatSeesTheHeapsFoot) {
-  // Only colour tells the grey table from the backdrop's side.
+  // Only colour shows the grey table to belong with the backdrop.
   const SelectedCandidate choice = choice_of(before_the_tables_edge({100, 100, 100}));
   ASSERT_TRUE(choice.best.has_flank());
   EXPECT_FALSE(choice.best.body.ground.behind);
@@ -133,8 +133,8 @@ TEST(ChooseReading, WhereNoReadingSeesTheFootTheFlanksAboveTheTablesEdgeAreMeasu
 }
 
 TEST(ChooseReading, AnEdgeAboveARoundFootIsBehindTheHeap) {
-  // Only colour sees the foot. Lightness ends at the table's far edge, the sharpest line of all;
-  // the heap is darker below it, so that its material does not seem to go on.
+  // Only colour shows the foot. By lightness the heap ends at the table's far edge, the sharpest
+  // line of all; it is darker below, so that its material does not seem to continue.
   cv::Mat3b picture(400, 600, cv::Vec3b(220, 220, 220));
   cv::rectangle(picture, {0, 250, 600, 150}, {100, 100, 100}, cv::FILLED);
   cv::Mat1b heap(picture.size(), std::uint8_t{0});
@@ -152,7 +152,7 @@ TEST(ChooseReading, AnEdgeAboveARoundFootIsBehindTheHeap) {
 
 TEST(ChooseReading, APlateThatCarriesAHeapIsNoHeap) {
   // As bright as its backdrop, on a dark plate whose far edge tilts and whose right side slopes:
-  // lightness shows the plate alone, more sharply than colour shows the heap.
+  // lightness shows only the plate, more sharply than colour shows the heap.
   cv::Mat3b picture(400, 600, cv::Vec3b(140, 140, 140));
   const std::vector<std::vector<cv::Point>> plate = {
       {{-60, 340}, {-60, 316}, {520, 296}, {620, 340}}};

@@ -21,7 +21,7 @@ TEST(EdgeDistance, OfParallelLinesIsTheirGap) {
 }
 
 TEST(EdgeDistance, IsTakenAtRightAnglesToASlope) {
-  // Two lines of slope 1, one 1 higher: 1 / sqrt(2) apart, but for the ends.
+  // Two lines of slope 1, one 1 higher: 1 / sqrt(2) apart, except at the ends.
   const EdgeDistance d = edge_distance({{0, 0}, {100, 100}}, {{0, 1}, {100, 101}});
   EXPECT_NEAR(d.most_of_it, std::sqrt(0.5), 1e-9);
   EXPECT_NEAR(d.largest, 1, 1e-9) << "at the ends";
@@ -41,7 +41,7 @@ TEST(EdgeDistance, LooksBothWays) {
   EXPECT_NEAR(edge_distance(shorter, longer).largest, 6, 1e-12);
 }
 
-/// To the nearest of many points of the edge, by looking at all of them.
+/// To the nearest of many points of the edge, by brute force.
 double slow_distance(const OutlinePoint& from, const Skyline& edge) {
   double nearest = std::hypot(edge[0].along - from.along, edge[0].height - from.height);
   for (std::size_t i = 1; i < edge.size(); ++i) {
@@ -62,7 +62,7 @@ TEST(EdgeDistance, IsThatOfTheNearestPointWhereverItLies) {
       teeth.push_back({i + random.uniform(0, 0.9), random.uniform(0, 10)});
     }
     const OutlinePoint lone = {random.uniform(-5, 25), random.uniform(0, 12)};
-    // From the lone point the way is to the nearest tooth, from the teeth to the farthest one.
+    // From the lone point, the distance is that of the nearest tooth; from the teeth, the farthest.
     double farthest = 0;
     for (const OutlinePoint& tooth : teeth) {
       farthest =

@@ -111,7 +111,7 @@ TEST(CompareHeaps, WithoutAScaleOnlyShapesAreCompared) {
   // sqrt(area) = sqrt(300 * 150)
   EXPECT_NEAR(*larger.height[0], 150 / std::sqrt(300 * 150), kExact);
 
-  // Made equal in area, slopes 1/2 and 1/8 cross: IoU 1/2 as for half the base and twice the
+  // Scaled to equal areas, slopes 1/2 and 1/8 cross: IoU 1/2 as for half the base and twice the
   // height.
   EXPECT_NEAR(*compare({}, {.height = 37.5}).iou, 0.5, kExact);
 }
@@ -141,7 +141,7 @@ TEST(CompareHeaps, SwappedHeapsGiveTheSameWithTheOtherSign) {
 }
 
 TEST(CompareHeaps, BestShiftFindsWhatTheAlignmentMisses) {
-  // Against a wall the crests are aligned; here the second one's is taken 20 px beside its tip.
+  // Against a wall the crests are aligned; here the second one is placed 20 px beside its tip.
   ReposeAngle second = measured({.has_right = false});
   second.crest->x -= 20;
   const HeapComparison c =
@@ -151,7 +151,7 @@ TEST(CompareHeaps, BestShiftFindsWhatTheAlignmentMisses) {
   EXPECT_LT(*c.best_shift_rmse, 0.1 * *c.profile_rmse);
 }
 
-/// Large grains end a heap upright: here both feet are a third of the height high.
+/// With large grains a heap ends in upright faces: here at both feet, a third of the height high.
 ReposeAngle blunt_heap() {
   const TriangleHeap whole;
   ReposeAngle heap = measured(whole);
@@ -225,7 +225,7 @@ TEST(CompareHeaps, ARefusedPictureIsRefusedWithItsReason) {
   EXPECT_THAT(compare_heaps(nothing, nothing).reason, HasSubstr("first picture: no heap"));
 }
 
-/// A heap of which only the angle is refused.
+/// A heap with only its angle refused.
 ReposeAngle without_angle(const TriangleHeap& heap) {
   ReposeAngle result = measured(heap);
   result.status = MeasureStatus::refused;

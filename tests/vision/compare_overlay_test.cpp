@@ -27,7 +27,7 @@ CompareOptions in_pixels() {
   return options;
 }
 
-/// Darkest grey of every column of the part of the chart between two heights.
+/// Darkest grey in every column of a part of the chart.
 std::vector<int> darkest(const Picture& overlay, cv::Rect part) {
   cv::Mat grey;
   cv::cvtColor(mat_of(overlay)(part), grey, cv::COLOR_BGR2GRAY);

@@ -6,12 +6,12 @@
 #include "tests/vision/pictures.h"
 #include "vision/compare/heap_comparison.h"
 
-/// Drawn heaps, measured and compared: what a user does.
+/// Drawn heaps, measured and compared as a user would.
 namespace repose::vision {
 namespace {
 
-/// An edge e pixels off costs an overlap of about 2 e / height. These heaps are 100 px high, and
-/// another way of finding the edge may be chosen for another picture of the same heap: 1.5 px.
+/// An edge error of e pixels costs an overlap of about 2 e / height. These heaps are 100 px high,
+/// and different pictures of the same heap may use different edge detection: 1.5 px.
 constexpr double kPixelIou = 0.97;
 constexpr double kPixelRmse = 1.5;
 
@@ -109,7 +109,7 @@ TEST(ComparePictures, TheIntervalHoldsTheTrueDifference) {
     const double truth = *a.mean_rad() - *b.mean_rad();
     held += c.angle->interval_rad[0] <= truth && truth <= c.angle->interval_rad[1] ? 1 : 0;
   }
-  EXPECT_GE(held, kPairs - 2);  // 95 % of 8, less what chance allows
+  EXPECT_GE(held, kPairs - 2);  // 95 % of 8, less random variation
 }
 
 TEST(ComparePictures, AFlankOutOfTheFrameLeavesTheRest) {

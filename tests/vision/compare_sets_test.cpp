@@ -18,7 +18,7 @@ using ::testing::SizeIs;
 
 constexpr double kMargin_rad = 2 * kDegree;
 
-/// A heap whose two sides have this angle, seen once.
+/// A heap with this angle on both sides, seen once.
 SeenHeap heap_of(double angle_deg, std::optional<double> m_per_px = {}) {
   return {.views = {measured({.height = 300 * std::tan(angle_deg * kDegree)})},
           .m_per_px = m_per_px};
@@ -57,7 +57,7 @@ TEST(CompareSets, ManyHeapsOfOneMeanAreEquivalentAndFewCannotTell) {
   EXPECT_EQ(compare_sets_of(many, many).angle->verdict, Agreement::equivalent);
   const SetComparison few = compare_sets_of({21.5, 24.5, 23}, {21.5, 24.5, 23});
   EXPECT_EQ(few.angle->verdict, Agreement::cannot_tell);
-  // t(.975; 2n - 2) 1.5 sqrt(2 / n) <= 2 from n = 6 on: 1.93; for 5 it is 2.19.
+  // t(.975; 2n - 2) 1.5 sqrt(2 / n) <= 2 for n >= 6: 1.93; for 5 it is 2.19.
   EXPECT_EQ(few.heaps_to_tell, 6);
 }
 

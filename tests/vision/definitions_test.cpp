@@ -40,7 +40,7 @@ double angle_named(const std::vector<NamedAngle>& angles, const std::string& nam
   return 0;
 }
 
-/// Feet at the profile's two ends.
+/// The feet are at the profile's two ends.
 Profile triangle_profile(double left_rad, double right_rad, double height) {
   const double left = height / std::tan(left_rad);
   const double right = height / std::tan(right_rad);
@@ -101,7 +101,7 @@ TEST(OtherDefinitions, SayWhatTheyAre) {
   }
 }
 
-/// The line's angle over the ideal curve of a side, between two fractions of the height.
+/// Angle of the line fitted to a side's ideal curve, between two fractions of the height.
 double line_of_curve(const testing::HeapProfile& heap, bool is_left,
                      const std::array<double, 2>& window) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -114,7 +114,7 @@ double line_of_curve(const testing::HeapProfile& heap, bool is_left,
   return std::abs(std::atan((n * xy - x * y) / (n * xx - x * x)));
 }
 
-/// Of the ideal outline; height over base of the grains' own, whose base is some grains shorter.
+/// By the ideal outline; height over base by the grains' own, whose base is a few grains shorter.
 double true_angle(const testing::HeapProfile& ideal, const testing::DrawnHeap& heap,
                   const base::AngleDefinition& definition) {
   if (definition.name == "height_over_base") {
@@ -127,7 +127,7 @@ double true_angle(const testing::HeapProfile& ideal, const testing::DrawnHeap& h
          2;
 }
 
-/// Bumps of grains, segmentation and ground line are what the intervals are for.
+/// The intervals account for grains' bumps, segmentation and ground line.
 TEST(NamedDefinitions, IntervalsHoldTheIdealOutlinesAngle) {
   constexpr std::uint64_t kSeeds = 8;
   constexpr int kAll = 4 * kSeeds, kFewest = kAll - 4;
@@ -172,7 +172,7 @@ TEST(NamedDefinitions, AFootBeyondTheFrameHasNoHeightOverBase) {
   testing::HeapScene scene = testing::condition_named("truncated").scene(1);
   testing::HeapForm& form = scene.form;
   ASSERT_EQ(form.cut, testing::Side::left);
-  form.cut_height = .25;  // of the usual window all but a twelfth is seen
+  form.cut_height = .25;  // all but a twelfth of the default window is visible
   const double cot_left = 1 / std::tan(form.left_rad);
   const double height = form.base / (cot_left + 1 / std::tan(form.right_rad));
   form.center = form.base / 2 - form.cut_height * height * cot_left;

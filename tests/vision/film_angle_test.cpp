@@ -140,7 +140,7 @@ TEST_F(FilmAngleOf, AShortFilmAtRestIsMeasuredAndFlagged) {
   EXPECT_THAT(film.heap.angle.warnings, has_warning("short_rest"));
 }
 
-/// What a camera of the picture's size sees so far to the left.
+/// The picture shifted to the left by `left_px`.
 Picture moved(const Picture& picture, int left_px) {
   Picture seen = picture;
   const std::ptrdiff_t from = std::ptrdiff_t{3} * left_px;
@@ -194,7 +194,7 @@ TEST_F(FilmAngleOf, UnevenTimeStampsAreUsedAndSaid) {
   const auto file = write(drawn.pictures(), drawn.frames_per_s, "heap.gif");
   std::string bytes = repose::testing::text_of(file);
   const std::string extension("\x21\xF9\x04", 3);
-  constexpr std::size_t kDelay = 4;  // hundredths of a second, behind the extension's flags
+  constexpr std::size_t kDelay = 4;  // hundredths of a second, after the extension's flags
   bool is_long = false;
   for (std::size_t at = bytes.find(extension); at != std::string::npos;
        at = bytes.find(extension, at + 1)) {

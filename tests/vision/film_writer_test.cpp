@@ -50,7 +50,7 @@ TEST(FilmWriter, KeepsEveryFrameInItsOrder) {
   }
 }
 
-/// Of a pattern with noise on it that moves.
+/// A film of a moving pattern with noise.
 std::string film_text(const std::filesystem::path& file) {
   std::mt19937 random(7);
   Picture picture = grey_picture(160, 120, 0);
@@ -74,7 +74,7 @@ TEST(FilmWriter, HasTheSameBytesWhateverWasInMemory) {
   const TemporaryFolder folder;
   std::array<std::string, 3> films;
   for (std::size_t k = 0; k < films.size(); ++k) {
-    mallopt(M_PERTURB, std::array{0, 1, 85}[k]);  // what new memory is filled with
+    mallopt(M_PERTURB, std::array{0, 1, 85}[k]);  // fill value of new memory
     films[k] = film_text(folder.path() / "film.mp4");
   }
   mallopt(M_PERTURB, 0);
@@ -105,7 +105,7 @@ TEST(FilmWriter, AFullDiskLeavesTheEarlierFilm) {
   rlimit usual = {};
   ::getrlimit(RLIMIT_FSIZE, &usual);
   rlimit small = usual;
-  small.rlim_cur = 2000;  // bytes: what is beyond them cannot be written, as on a full disk
+  small.rlim_cur = 2000;  // bytes: writes beyond this fail, as on a full disk
   ::setrlimit(RLIMIT_FSIZE, &small);
   const std::string error = error_of([&] {
     FilmWriter film(file, 10);

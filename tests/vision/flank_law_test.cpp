@@ -19,7 +19,7 @@ namespace {
 constexpr double kSlope = .4;  // of the line from toe to apex
 constexpr double kLength = 300;
 
-/// An edge of a point each pixel, with nothing rounded off.
+/// An edge with one point per pixel and no rounding of the crest.
 EdgeAngle angle_of(const FlankLaw& law) {
   std::vector<EdgePoint> edge;
   for (int i = 0; i <= kLength; ++i) {
@@ -49,7 +49,7 @@ TEST(EdgeAngle, APowerOfTwoHasTheSlopeOfItsChord) {
   EXPECT_NEAR(parabola.bend_rad, chord_rad(high, middle) - chord_rad(middle, low), 1e-4);
 }
 
-/// The slope of a least-squares line over [a, b] of a function f is, with the middle m,
+/// The slope of the least-squares line of a function f over [a, b] with the middle m is
 /// 12 / (b - a)^3 times the integral of (x - m) f(x).
 TEST(EdgeAngle, AnExponentialHasTheSlopeOfItsIntegral) {
   constexpr double k = 1.7;
@@ -114,14 +114,14 @@ TEST(HeapProfile, ItsCurveOfAHollowHeapIsSmoothAtTheCrestAndLowersNoWindow) {
   const HeapForm form{.left_rad = .4, .right_rad = .5, .flanks = Flanks::power, .hollow = 2};
   const HeapProfile profile(form, 1200, 0);
   EXPECT_NEAR(profile.height_at(profile.apex_x()), profile.height_px(), .02 * profile.height_px());
-  // The line of a parabola's window, whose height is that of the rounded heap.
+  // The line over a parabola's window, which is relative to the height of the rounded heap.
   const double apex = .6 * 1200 / (1 / std::tan(.4) + 1 / std::tan(.5));
   const double sum =
       std::sqrt(.2 * profile.height_px() / apex) + std::sqrt(.8 * profile.height_px() / apex);
   EXPECT_NEAR(profile.angle(Side::left)->angle_rad, std::atan(std::tan(.4) * sum), 1e-4);
 }
 
-/// Straight ones are exact; hollow ones bend by 3 to 8 degrees, as photographs do.
+/// Straight flanks are exact; hollow ones bend by 3 to 8 degrees, as in photographs.
 TEST(HeapProfile, HollowConditionsBend) {
   for (const char* name : {"hollow_power", "hollow_exponential", "hollow_half_heap", "hollow_apron",
                            "few_grains_hollow"}) {

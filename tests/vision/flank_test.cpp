@@ -21,7 +21,7 @@ FlankFit fit(const Profile& profile, Side side, FlankOptions options = {}) {
   return fit_flank(profile, side, options);
 }
 
-/// A right flank of slope `slope` from its crest at x = 20, 100 high, changed by `change(u, h)`.
+/// A right flank of slope `slope` from its crest at x = 20, 100 high, modified by `change(u, h)`.
 template <class Change>
 Profile right_flank(double slope, Change change) {
   return profile_of(500, [&](double along) {
@@ -57,7 +57,7 @@ TEST(FitFlank, UsesTheWindowThatIsAskedFor) {
   }
 }
 
-/// The angle of the line through the points of a height function between two parts of its height.
+/// Angle of the line through the points of a height function between two fractions of its height.
 template <class Height>
 double definition(Height height, double crest, double from, double to) {
   std::vector<double> u;
@@ -72,7 +72,7 @@ double definition(Height height, double crest, double from, double to) {
 
 TEST(FitFlank, HollowFlanksAreFittedWhereTheEdgeHasTheHeights) {
   // Power laws and exponentials whose halves differ by 4 to 13 degrees. Lines that end where they
-  // themselves have the heights lie .4 to 2.6 degrees steeper.
+  // themselves reach the window's heights are .4 to 2.6 degrees steeper.
   const auto power = [](double p) {
     return [p](double u) { return u < 400 ? 100 * std::pow(1 - u / 400, p) : 0; };
   };
@@ -101,7 +101,7 @@ TEST(FitFlank, HollowFlanksAreFittedWhereTheEdgeHasTheHeights) {
 }
 
 TEST(FitFlank, BumpsDoNotTurnTheLine) {
-  // Bumps of a tenth of the height; whether one reaches over the window's height must not matter.
+  // Bumps of a tenth of the height; whether one extends beyond the window must not matter.
   double mean_rad = 0;
   constexpr int kPhases = 12;
   for (int phase = 0; phase < kPhases; ++phase) {
@@ -110,7 +110,7 @@ TEST(FitFlank, BumpsDoNotTurnTheLine) {
     });
     const FlankFit flank = fit(bumpy, Side::right, {.grain = 12});
     ASSERT_EQ(flank.status, FlankStatus::ok);
-    // What a wave of amplitude a and length w can turn a line of length l: 6 a w / (pi l^2), here
+    // A wave of amplitude a and length w can turn a line of length l by 6 a w / (pi l^2): here
     // 0.017 of slope, 0.76 degrees.
     EXPECT_NEAR(flank.angle_rad, std::atan(0.5), 0.76 * kDegree);
     mean_rad += flank.angle_rad / kPhases;
@@ -121,12 +121,12 @@ TEST(FitFlank, BumpsDoNotTurnTheLine) {
 TEST(FitFlank, AHollowToeBelowTheWindowDoesNotMatter) {
   const double slope = std::tan(28 * kDegree);
   const auto with_toe = [&](double u, double h) {
-    const double knee = 82 / slope;  // 18 high; from there on a third as steep
+    const double knee = 82 / slope;  // 18 high; below it a third as steep
     return std::max(0.0, u < knee ? h : 18 - slope / 3 * (u - knee));
   };
   const FlankFit flank = fit(right_flank(slope, with_toe), Side::right, {.grain = 4});
   EXPECT_NEAR(flank.angle_rad, 28 * kDegree, 1e-6);
-  // 10-90 % of the height lets the toe in.
+  // 10-90 % of the height includes the toe.
   EXPECT_GT(flank.window_spread_rad, 0.5 * kDegree);
 }
 
@@ -139,7 +139,7 @@ TEST(FitFlank, ALedgeUnderWhichTheFlankGoesOnIsNoFoot) {
 }
 
 TEST(FitFlank, AStepBetweenLargeGrainsOfUnknownSizeIsNoApron) {
-  // Three grains high: over the length of one of them the edge may lie level anywhere.
+  // Three grains high: the edge may be level anywhere over a grain's length.
   for (double phase = 0; phase < 6; phase += 0.5) {
     const Profile silhouette = right_flank(0.6, [&](double u, double h) {
       return std::max(0.0, h + 8 * std::sin(2 * std::numbers::pi * u / 30 + phase));
@@ -177,7 +177,7 @@ TEST(FitFlank, AHalfHeapAgainstTheFrameIsAbsentNotUpright) {
   EXPECT_FALSE(left.reason.empty());
 }
 
-/// The triangle's right flank, cut off by the frame at `share` of its height.
+/// The triangle's right flank, cut off by the frame at `fraction` of its height.
 Profile cut_off_at(double fraction) {
   const double end = 350 + (1 - fraction) * 110 / std::tan(kRight_rad);
   Profile profile = profile_of(static_cast<int>(end), kTriangle);
@@ -255,7 +255,7 @@ Profile grainy(testing::Random& random) {
 }
 
 TEST(FitFlank, FitErrorIsTheAnglesScatter) {
-  constexpr int kTrials = 200;  // scatter known to 5 %
+  constexpr int kTrials = 200;  // determine the scatter to 5 %
   testing::Random random(2);
   double scatter = 0;
   double stated = 0;
@@ -266,8 +266,8 @@ TEST(FitFlank, FitErrorIsTheAnglesScatter) {
     stated += std::pow(flank.fit_error_rad, 2) / kTrials;
     noise += flank.scatter / kTrials;
   }
-  EXPECT_NEAR(noise, 2, 0.3);  // the line follows its own grains, which hides a little of it
-  // 120 columns hold only six blocks of two grains: the error of the error is a quarter.
+  EXPECT_NEAR(noise, 2, 0.3);  // the fitted line absorbs a little of it
+  // 120 columns contain only six blocks of two grains: the error estimate's own error is a quarter.
   EXPECT_NEAR(std::sqrt(stated / scatter), 1, 0.25);
 }
 

@@ -8,14 +8,14 @@
 namespace repose::vision {
 namespace {
 
-constexpr double kGravity = 9800;  // px/s2: a pixel is a millimetre or so
+constexpr double kGravity = 9800;  // px/s2: a pixel is about a millimetre
 constexpr double kFrame_s = 1. / 120;
 constexpr double kFrameHeight_px = 720;
 constexpr double kRestitution = .6;
 
-/// What a camera sees of a grain held for a while, dropped from 300 px and bouncing to rest.
+/// A camera's view of a grain held for a while, dropped from 300 px and bouncing to rest.
 struct Drop {
-  double drag_per_px = 0;  ///< deceleration by air over speed squared
+  double drag_per_px = 0;  ///< deceleration by air / speed squared
   double readout_s = 0;    ///< of a frame
   double noise_px = .05;
   unsigned seed = 1;
@@ -71,7 +71,7 @@ TEST(Flights, AreThePartsBetweenReleaseImpactsAndRest) {
   EXPECT_NEAR(static_cast<double>(flights.spans[0].from) * kFrame_s, .2, 2.5 * kFrame_s);
   const double fall_s = std::sqrt(2 * 300 / kGravity);
   EXPECT_NEAR(static_cast<double>(flights.spans[0].to) * kFrame_s, .2 + fall_s, 1.5 * kFrame_s);
-  // The grain lies still in the end.
+  // The grain is at rest in the end.
   const double flown_s = fall_s * (1 + 2 * kRestitution / (1 - kRestitution));
   EXPECT_LT(static_cast<double>(flights.spans.back().to) * kFrame_s, .2 + flown_s);
 }
@@ -92,7 +92,7 @@ struct Tally {
   double mean_error = 0;
 };
 
-/// Of the first bounce, over drops that differ in noise alone.
+/// Tally of the first bounce over drops that differ only in noise.
 Tally tally_of(Drop drop) {
   constexpr int kDrops = 60;
   Tally tally;
@@ -106,15 +106,15 @@ Tally tally_of(Drop drop) {
   return tally;
 }
 
-// 95 % of 60 are 57; 3 standard deviations of that number less are 52.
+// 95 % of 60 is 57; less 3 standard deviations of that number, 52.
 TEST(FlightFit, IntervalsHoldTheRestitutionAsOftenAsTheySay) {
   const Tally tally = tally_of({});
   EXPECT_GE(tally.held, 52);
   EXPECT_NEAR(tally.mean_error, 0, .001);
 }
 
-// At 2.4 m/s the air takes 9 % of gravity: a light grain of 8 m/s terminal speed. Without the air
-// in the fit restitution comes out 2 % low.
+// At 2.4 m/s air drag is 9 % of gravity: a light grain of 8 m/s terminal speed. Without air in the
+// fit, restitution comes out 2 % low.
 TEST(FlightFit, TakesTheAirOut) {
   const double terminal_px_s = 8 / 9.80665 * kGravity;
   const Tally tally = tally_of({.drag_per_px = kGravity / (terminal_px_s * terminal_px_s)});
@@ -122,7 +122,7 @@ TEST(FlightFit, TakesTheAirOut) {
   EXPECT_NEAR(tally.mean_error, 0, .002);
 }
 
-// Rows read one after the other make what falls seem faster, and what rises slower.
+// Row-by-row readout makes falling grains seem faster and rising ones slower.
 TEST(FlightFit, TakesTheReadoutOfRowsOut) {
   const Drop drop{.readout_s = .008};
   EXPECT_NEAR(fit_of(drop.path()).readout_s_per_px() * kFrameHeight_px, .008, .001);
@@ -131,7 +131,7 @@ TEST(FlightFit, TakesTheReadoutOfRowsOut) {
   EXPECT_NEAR(tally.mean_error, 0, .001);
 }
 
-// What air can do goes by the grain's size in pixels, which no clock changes.
+// The bound on air drag depends on the grain's size in pixels, which is independent of the clock.
 TEST(FlightFit, IsTheSameInAFilmThatPlaysSlowerThanItWasTaken) {
   std::vector<SeenAt> path = Drop{}.path();
   const Estimate plain = restitution(fit_of(path), 0);
@@ -143,7 +143,7 @@ TEST(FlightFit, IsTheSameInAFilmThatPlaysSlowerThanItWasTaken) {
 }
 
 TEST(FlightFit, OfASmallGrainHasAWiderIntervalSinceAirMaySlowItMore) {
-  // A fall and a rise, which alone tell little of the air.
+  // A fall and a rise, which alone say little about the air.
   std::vector<SeenAt> path = Drop{.noise_px = .2}.path();
   std::erase_if(path, [](const SeenAt& one) { return one.time_s > .7; });
   const auto interval = [&](double radius_px) {

@@ -46,7 +46,7 @@ TEST(UnroundedTimes, LeaveWhatIsUnevenByItself) {
   EXPECT_EQ(unrounded_times(fine_s, 1 / 15360.), fine_s);
 }
 
-/// One after the other, each some time after the last.
+/// Times from 0 with these steps between them.
 std::vector<double> times_of(const std::vector<double>& steps_s) {
   std::vector<double> times_s = {0};
   for (const double step_s : steps_s) times_s.push_back(times_s.back() + step_s);
@@ -92,8 +92,8 @@ TEST(FrameGrid, CountsTheStepsBehindUnsteadyStamps) {
   EXPECT_NEAR(grid->off, .3 / std::sqrt(2), .03);
 }
 
-/// What changes to each frame of a film that shows, of a thing in flights of so many frames, the
-/// frames with these numbers.
+/// The change to each frame of a film that shows only the frames with these numbers, of an object
+/// in flights of `flight` frames.
 std::vector<double> changes_between(const std::vector<int>& shown, int flight) {
   std::vector<double> changes = {0};
   for (std::size_t k = 1; k < shown.size(); ++k) {

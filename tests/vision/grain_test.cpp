@@ -21,7 +21,7 @@ TEST(GrainSize, IsWithinAThirdOnGeneratedPictures) {
       EXPECT_GT(ratios.back(), 0.5) << condition << ' ' << seed;
       EXPECT_LT(ratios.back(), 1.5) << condition << ' ' << seed;
     }
-    // "Good to about a third": a usual one is, a rare one may be off by half.
+    // "Good to about a third": typically; in rare cases the error may be half.
     EXPECT_NEAR(median(ratios), 1, 1. / 3) << condition;
   }
 }
@@ -34,7 +34,7 @@ TEST(GrainSize, DoesNotDependOnTheLight) {
   for (int col = 0; col < picture.cols; ++col) picture.col(col) *= 0.5 + 0.5 * col / picture.cols;
   const auto after = grain_size(work_of(picture), mask);
   ASSERT_TRUE(before && after);
-  EXPECT_NEAR(*after, *before, 1.3);  // it is known in steps of a pixel's lag
+  EXPECT_NEAR(*after, *before, 1.3);  // its resolution is a lag of one pixel
 }
 
 TEST(GrainSize, ASilhouetteShowsNone) {

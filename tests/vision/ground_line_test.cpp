@@ -47,7 +47,7 @@ TEST(SupportLine, WhatStandsOnTheGroundDoesNotLiftIt) {
   };
   const auto ground = support_line(points_of(500, outline), kTolerance);
   ASSERT_TRUE(ground);
-  // The heap's two toes lie within the tolerance, five points each of 300: they may tilt nothing.
+  // The heap's two toes lie within the tolerance, five points each of 300: they must not tilt it.
   EXPECT_NEAR(ground->line.tilt_rad(), 1.5 * kDegree, 0.02 * kDegree);
   EXPECT_NEAR(ground->line.y(250), 200 + slope * 250, 0.2);
   EXPECT_NEAR(ground->fraction, 0.6, 0.03);
@@ -78,7 +78,7 @@ TEST(SupportLine, SlopesSteeperThanATripodAreNoGround) {
 }
 
 TEST(SupportLine, ALineWithMuchBelowItIsNoGround) {
-  // A level edge over the right third; the rest lies deeper, on slopes without any level line.
+  // A level edge over the right third; the rest lies lower, on slopes without any level line.
   const auto outline = [](double x) { return x > 200 ? 50.0 : 60 + std::abs(x - 100); };
   const auto ground = support_line(points_of(300, outline), kTolerance);
   EXPECT_TRUE(!ground || ground->line.y(250) > 150) << "at y = " << ground->line.y(250);
@@ -94,7 +94,7 @@ TEST(SupportLine, PointsInOneColumnAreNoLine) {
   EXPECT_FALSE(support_line(std::vector<Point>(20, Point{4, 4}), kTolerance));
 }
 
-/// Bases are ragged over a grain's length: neighbours belong together.
+/// Bases are ragged over a grain's length: neighbouring points are correlated.
 TEST(SupportLine, DeviationIsTheTiltsError) {
   constexpr int kTrials = 200;
   constexpr int kGrain_px = 10;
@@ -115,13 +115,13 @@ TEST(SupportLine, DeviationIsTheTiltsError) {
     ASSERT_TRUE(ground);
     held += std::abs(ground->line.tilt_rad()) <= 1.96 * ground->deviation_rad ? 1 : 0;
   }
-  EXPECT_GE(held, 0.88 * kTrials);  // 95 % is the aim, 3.1 % the trials' own scatter at 2 sigma
+  EXPECT_GE(held, 0.88 * kTrials);  // the target is 95 %, the trials' 2 sigma scatter 3.1 %
 }
 
 constexpr double kGround = 150;
 constexpr Base kBase{100, 300};
 
-/// A dark heap on a plate before a light backdrop.
+/// A dark heap on a plate in front of a light backdrop.
 WorkingPicture heap_on_plate(double tilt_rad) {
   const double fall = std::tan(tilt_rad);
   const auto at = [&](double x, double height) {
@@ -190,8 +190,8 @@ TEST(BestGround, UnderABowedBaseTheSearchDoesNotTurnTheLine) {
   EXPECT_LT(best.y(300), kGround + 10) << "but shifts it";
 }
 
-/// A heap of yellow grains on a grey plate, seen from a little above: the plate ends behind the
-/// heap at kGround, and the heap's foot, which lies in a shade, is 12 px lower.
+/// A heap of yellow grains on a grey plate, seen from slightly above: the plate ends behind the
+/// heap at kGround, and the heap's foot, which lies in shade, is 12 px lower.
 WorkingPicture heap_before_an_edge(const cv::Vec3b& foot) {
   cv::Mat3b picture(220, 400, cv::Vec3b(200, 200, 200));
   picture.rowRange(static_cast<int>(kGround), 220) = cv::Vec3b(120, 120, 120);
@@ -201,7 +201,7 @@ WorkingPicture heap_before_an_edge(const cv::Vec3b& foot) {
   return work_of(picture);
 }
 
-/// The outline of heap and plate, taken for one.
+/// The outline of heap and plate taken together.
 Spans spans_with_plate() {
   Spans spans{.top = std::vector<int>(400), .bottom = std::vector<int>(400, 219)};
   for (int x = 0; x < 400; ++x) {
@@ -268,7 +268,7 @@ TEST(BestGround, IsTheFootWhereTheHeapEndsAboveAPlainerEdge) {
 }
 
 TEST(BestGround, TheSearchDoesNotReachTheNextEdge) {
-  // Plainer with every row: the search would follow it down to the plate's edge, 30 px lower.
+  // More distinct with every row: the search would follow it down to the plate's edge, 30 px lower.
   cv::Mat3b picture(220, 400, cv::Vec3b(160, 160, 160));
   for (int y = static_cast<int>(kGround); y < 220; ++y) {
     const double below = std::min(30.0, y - kGround);

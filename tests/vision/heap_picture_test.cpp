@@ -20,7 +20,7 @@ struct Spread {
   double sd_deg = 0;
 };
 
-/// Of fitted less true flank angles.
+/// Bias and scatter of fitted less true flank angles.
 Spread flank_errors(const char* condition, int seeds) {
   std::vector<double> errors;
   for (int seed = 1; seed <= seeds; ++seed) {
@@ -39,7 +39,7 @@ Spread flank_errors(const char* condition, int seeds) {
 
 class ExactAngles : public ::testing::TestWithParam<const char*> {};
 
-/// The measurements' targets are 0.15 and 0.3 degrees: the truth has to be several times better.
+/// The measurements' targets are 0.15 and 0.3 degrees: the truth must be several times better.
 TEST_P(ExactAngles, OutlineFollowsTheConstructedFlank) {
   const auto [bias_deg, sd_deg] = flank_errors(GetParam(), 100);
   RecordProperty("bias_deg", std::to_string(bias_deg));

@@ -64,7 +64,7 @@ TEST_F(HintFile, WhatIsSavedIsReadAgain) {
   options.hints.mask_file = folder_.path() / "a mask \"here\".png";
   write_picture(options.hints.mask_file, picture_of(cv::Mat3b(20, 30, cv::Vec3b(9, 9, 9))));
   save(options);
-  for (int time = 0; time < 2; ++time) {  // what is given again is there once
+  for (int time = 0; time < 2; ++time) {  // hints given again are not duplicated
     const MeasureOptions again = read(time == 0 ? MeasureOptions{} : options);
     EXPECT_EQ(again.hints.source, "heap.jpg.repose.toml");
     ASSERT_TRUE(again.hints.heap && again.hints.ground && again.camera_pitch_rad);

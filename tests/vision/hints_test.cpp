@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
 
-/// Two drawn heaps beside each other.
+/// Two drawn heaps side by side.
 struct TwoHeaps {
   testing::DrawnHeap left = drawn("clean", 2, 640);
   testing::DrawnHeap right = drawn("dark", 1, 640);
@@ -58,7 +58,7 @@ TEST(Hints, ATiltedGroundLineIsTheAnglesBase) {
   const ReposeAngle result = measure_repose_angle(heap.picture, options);
   ASSERT_TRUE(result.left.angle_rad && result.right.angle_rad);
   const double tilt = std::atan(0.05);
-  EXPECT_NEAR(*result.ground_tilt_rad, -tilt, 1.1 * kDegree);  // and the picture's own
+  EXPECT_NEAR(*result.ground_tilt_rad, -tilt, 1.1 * kDegree);  // plus the picture's own
   EXPECT_NEAR(*result.left.angle_rad, *heap.left_rad - tilt, 0.8 * kDegree);
   EXPECT_NEAR(*result.right.angle_rad, *heap.right_rad + tilt, 0.8 * kDegree);
   // Two pixels at either end of the line.
@@ -79,7 +79,7 @@ TEST(Hints, TheCrestThatABoxCutsOffIsFlagged) {
 TEST(Hints, WhatFillsLittleOfTheBoxIsNotMeant) {
   const auto heap = drawn("clean", 2, 640);
   cv::Mat3b painted = mat_of(heap.picture).clone();
-  // A small black roof hangs in the box: nothing has a sharper edge.
+  // A small black roof hangs in the box: it has the sharpest edge.
   const auto roof_foot = static_cast<int>(heap.ground.from.y - 0.75 * heap.height_px);
   const int roof_left = static_cast<int>(heap.ground.from.x) + 5;
   const std::vector<cv::Point> roof = {
@@ -106,7 +106,7 @@ TEST(Hints, AMaskSaysItAll) {
   }
   cv::Mat3b painted(heap.picture.height, heap.picture.width, cv::Vec3b());
   cv::fillPoly(painted, std::vector<std::vector<cv::Point>>{corners}, cv::Scalar::all(255));
-  // The picture itself shows a heap that can hardly be seen.
+  // The heap in the picture itself is barely visible.
   cv::Mat faint;
   mat_of(heap.picture).convertTo(faint, CV_8UC3, 0.1, 110);
   MeasureOptions options;
@@ -117,7 +117,7 @@ TEST(Hints, AMaskSaysItAll) {
   EXPECT_NEAR(*result.angle_rad, *heap.mean_rad(), 0.5 * kDegree);
 }
 
-/// Grey, which says nothing, with a patch of one lightness.
+/// Grey, which means unknown, with a patch of one lightness.
 Picture patched_mask(const Picture& picture, const cv::Rect& patch, int lightness) {
   cv::Mat3b mask(picture.height, picture.width, cv::Vec3b::all(128));
   mask(patch).setTo(cv::Scalar::all(lightness));
@@ -150,7 +150,7 @@ TEST(Hints, AMaskMaySayOnlyWhatIsHeap) {
 }
 
 TEST(Hints, WhatIsNoHeapDoesNotMakeTheRestOne) {
-  // A brick: nobody has said that it is a heap.
+  // A brick that no hint marks as a heap.
   cv::Mat3b brick(480, 640, cv::Vec3b::all(200));
   cv::fillPoly(
       brick, std::vector<std::vector<cv::Point>>{{{120, 400}, {240, 200}, {400, 200}, {520, 400}}},

@@ -15,7 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Corners as the camera has them, with noise, without the picture: fast.
+/// Corners as projected by the camera, with noise, without drawing the picture: fast.
 BoardPicture picture_of_corners(const testing::BoardCamera& camera,
                                 const testing::BoardPlace& place, double noise_px,
                                 std::uint64_t seed) {
@@ -93,7 +93,7 @@ TEST(LensFitAccuracy, IntervalsHoldTheTruth) {
     count(fit.lens.k1, kBarrelCamera.k1);
   }
   EXPECT_EQ(all, 48);
-  EXPECT_GE(held, 42);  // of 95 %, fewer than once in a hundred times by chance
+  EXPECT_GE(held, 42);  // at 95 %, fewer have a probability below 1 %
 }
 
 TEST(LensFit, RefusesTooFewPicturesAndThoseWithoutABoard) {

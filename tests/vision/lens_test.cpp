@@ -51,7 +51,7 @@ TEST(Lens, CorrectedAndSeenAreEachOthersInverse) {
     const Point back = lens.seen(corrected);
     EXPECT_NEAR(back.x, place.x, 1e-3);
     EXPECT_NEAR(back.y, place.y, 1e-3);
-    // And both follow the formula, as the drawn camera has it.
+    // And both follow the drawn camera's formula.
     const Eigen::Vector3d direction = camera.direction(place);
     EXPECT_NEAR(direction.x() * 1100 + 647, corrected.x, .02);
     EXPECT_NEAR(direction.y() * 1100 + 420, corrected.y, .02);
@@ -120,7 +120,7 @@ TEST(Lens, HintsFollowTheirPlacesIntoTheCorrectedPicture) {
   options.hints.keep = {{640, 400}};
   options.excluded = {{.x = 10, .y = 10, .width = 100, .height = 50}};
   const MeasureOptions corrected = corrected_options(options, lens);
-  // A barrel's edges lie farther out, so they are cut off at the frame.
+  // With barrel distortion the corrected edges lie farther out, so they are cut off at the frame.
   EXPECT_EQ(corrected.hints.heap->x, 0);
   EXPECT_LT(corrected.hints.heap->y, 200);
   EXPECT_GT(corrected.hints.ground->from.y, 701);
@@ -193,7 +193,7 @@ TEST(LensFile, LensesThatCannotBeAreRefused) {
   bent = barrel();
   bent.p1.value = .5;
   EXPECT_THAT(error_of(bent), HasSubstr("p1 moves the corner"));
-  // From far away the same coefficient does little.
+  // At a long focal length the same coefficient has little effect.
   bent = barrel();
   bent.focal_px.value = 30'000;
   bent.k1.value = 5;

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// A light picture with camera noise in which `draw` has painted something dark.
+/// A light picture with camera noise in which `draw` paints something dark.
 template <class Draw>
 Picture painted(Draw draw) {
   cv::Mat3b picture(480, 640, cv::Vec3b(215, 220, 225));
@@ -68,8 +68,8 @@ TEST(HeapPlausibility, ASmoothTriangleIsFlagged) {
               Not(Contains(Field(&Warning::code, "unlike_a_heap"))));
 }
 
-/// A body with a level base at y = 100 and an upper edge at `top`, empty from `gap_from` down to it
-/// between the columns 80 and 220.
+/// A body with a level base at y = 100 and an upper edge at `top`, empty from `gap_from` down to
+/// the base between columns 80 and 220.
 Reading body_with_gap(int top, int gap_from) {
   Reading reading;
   reading.body.mask = cv::Mat1b::zeros(120, 300);
@@ -116,7 +116,7 @@ TEST(HeapPlausibility, TreadsOfStairsAreLevelAndASlopeIsNot) {
     const int risers = i / 20;
     flank.height.at(i) = 100 - 10 * risers;
   }
-  EXPECT_NEAR(likeness_of(reading, work).level, 1 - 5.0 / 20, 0.03);  // but for five at each riser
+  EXPECT_NEAR(likeness_of(reading, work).level, 1 - 5.0 / 20, 0.03);  // except five at each riser
 }
 
 TEST(ReasonAgainstHeap, NamesWhatSpeaksAgainstIt) {

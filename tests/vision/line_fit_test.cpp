@@ -24,8 +24,8 @@ struct Points {
 constexpr double kSlope = -0.5;
 constexpr double kIntercept = 120;
 
-/// A flank's edge: 200 points that scatter by half a pixel around a line; of the lower half,
-/// `loose_particles` are lifted by 5 to 40 pixels.
+/// A flank's edge: 200 points that scatter by half a pixel around a line; in the lower half,
+/// `loose_particles` of them are lifted by 5 to 40 pixels.
 Points flank_points(int loose_particles, std::uint64_t seed) {
   testing::Random random(seed);
   Points points;
@@ -72,7 +72,7 @@ TEST(RobustLine, StraysMoveItLessThanHalfAsMuchAsTheLeastSquaresLine) {
     const double robust = robust_line(points.x, points.y).slope - kSlope;
     const double ordinary = least_squares_line(points.x, points.y).slope - kSlope;
     EXPECT_GT(ordinary, 0.04) << "2 degrees: the strays matter";
-    // All loose_particles lie on one half, nearly one in two: no easy case.
+    // All loose_particles lie in one half, nearly one point in two there: a hard case.
     EXPECT_LT(std::abs(robust), 0.6 * ordinary) << seed;
   }
 }
@@ -82,19 +82,19 @@ TEST(RobustLine, AFewFarStraysDoNotMoveIt) {
   const double clean = robust_line(points.x, points.y).slope;
   for (std::size_t i = 180; i < 190; ++i) points.y[i] += 60;
   EXPECT_GT(least_squares_line(points.x, points.y).slope - clean, 0.05);
-  // A twentieth of the points is lost: a small part of the slope's own error, 6e-4.
+  // Losing a twentieth of the points is a small part of the slope's own error, 6e-4.
   EXPECT_NEAR(robust_line(points.x, points.y).slope, clean, 3e-4);
 }
 
-/// 30 % of the points lie above the line, more and more of them towards one end: they tilt the
-/// first line, and the scatter around that hides them.
+/// 30 % of the points lie above the line, increasingly towards one end: they tilt the first line,
+/// and the scatter around that hides them.
 TEST(RobustLine, ThirtyPercentStraysDoNotMoveItOnceTheScaleHasSettled) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     testing::Random random(seed + 100);
     Points points = flank_points(0, seed);
     for (std::size_t i = 0; i < 60; ++i) points.y[60 + i * 140 / 60] += random.uniform(5, 40);
     ASSERT_GT(least_squares_line(points.x, points.y).slope - kSlope, 0.03) << "2 degrees";
-    // The slope's own error is 6e-4, and a third of the points is lost.
+    // The slope's own error is 6e-4, and a third of the points are lost.
     EXPECT_NEAR(robust_line(points.x, points.y).slope, kSlope, 3e-3) << seed;
   }
 }
@@ -124,7 +124,7 @@ TEST(LineFits, AreFiniteOnPointsThatMakeNoLine) {
 }
 
 TEST(LineFits, PointsAboveOneAnotherHaveALevelLineThroughTheirMean) {
-  Points points;  // the mean of seven 0.1 is not 0.1, as computers add
+  Points points;  // in floating point the mean of seven 0.1 is not 0.1
   for (const double y : {0, 1, 4, 2, 2, 4, 1}) points.add(0.1, y);
   EXPECT_EQ(least_squares_line(points.x, points.y).slope, 0);
   EXPECT_NEAR(least_squares_line(points.x, points.y).intercept, 2, 1e-9);

@@ -5,22 +5,22 @@
 
 #include "vision/measure/repose_angle.h"
 
-/// Results of measuring triangles, made up instead of measured: their numbers are exact.
+/// Results of measuring triangles, computed instead of measured: their numbers are exact.
 namespace repose::vision {
 
-inline constexpr double kExact = 1e-9;  ///< what rounding may do to those numbers
+inline constexpr double kExact = 1e-9;  ///< rounding error allowed in those numbers
 
 /// A heap with straight sides, in a picture [px].
 struct TriangleHeap {
-  double left_base = 300;   ///< from the left foot to below the tip
+  double left_base = 300;   ///< from the left foot to the point below the tip
   double right_base = 300;  ///< likewise
   double height = 150;
   double tip_x = 500;
   double ground_y = 600;
   double tilt_rad = 0;    ///< of the ground about (tip_x, ground_y), > 0: right end lower
   double step = 1;        ///< between points of the edge
-  double cut_left = 0;    ///< this much of the left side is beyond the picture's edge
-  bool has_left = true;   ///< else it stands against a wall below its tip
+  double cut_left = 0;    ///< length of the left side beyond the picture's edge
+  bool has_left = true;   ///< otherwise it stands against a wall below its tip
   bool has_right = true;  ///< likewise
   double uncertainty_rad = 0.004;
 };

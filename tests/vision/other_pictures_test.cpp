@@ -22,7 +22,7 @@ TEST(OtherPictures, SameSeedGivesTheSameBytesAndAnotherSeedAnotherPicture) {
   EXPECT_NE(draw_other(tent, 3).bgr, draw_other(tent, 4).bgr);
 }
 
-/// A picture of one colour would be refused for having nothing in it.
+/// A picture of one colour would be refused as empty.
 TEST(OtherPictures, EveryKindShowsSomething) {
   for (const OtherKind& kind : other_kinds()) {
     const vision::Picture picture = draw_other(kind, 1);

@@ -20,7 +20,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// The part of a height function that is above the ground, `unit` long from point to point.
+/// The part of a height function that is above the ground, with points `unit` apart.
 template <class Height>
 Outline outline_of(Height height, double unit = 1, int columns = 700) {
   Outline outline;
@@ -39,13 +39,13 @@ TEST(OutlineAngle, StraightFlanksAreExact) {
   EXPECT_NEAR(angle.left->angle_rad, kLeft_rad, 1e-6);
   EXPECT_NEAR(angle.right->angle_rad, kRight_rad, 1e-6);
   EXPECT_NEAR(*angle.angle_rad(), 25 * kDegree, 1e-6);
-  // From the middle of the highest part, which lies up to 3 % of the height down a side.
+  // From the middle of the highest part, which may lie up to 3 % of the height down one side.
   EXPECT_NEAR(angle.left->foot + angle.right->foot,
               110 / kTriangle.left_slope + 110 / kTriangle.right_slope, 1e-3);
 }
 
 TEST(OutlineAngle, OtherDefinitionsAreThoseOfTheEdge) {
-  // 20 degrees at the foot, 30 above half of the height: a line through all lies between.
+  // 20 degrees at the foot, 30 above half the height: a line through all lies in between.
   const double foot = 55 / std::tan(20 * kDegree), top = 55 / std::tan(30 * kDegree);
   const Outline hollow = outline_of([&](double along) {
     const double off = std::abs(along - 350);
@@ -62,7 +62,7 @@ TEST(OutlineAngle, OtherDefinitionsAreThoseOfTheEdge) {
     EXPECT_GT(deg, 20) << name;
     EXPECT_LT(deg, 30) << name;
   }
-  // The crest is that of the lightly smoothed edge: a little lower.
+  // The crest is that of the lightly smoothed edge: slightly lower.
   EXPECT_NEAR(by_name["height_over_base"], std::atan2(110, foot + top) / kDegree, .4);
   // The least-squares line through all of a flank, u from the crest.
   double uu = 0, uh = 0;
@@ -146,7 +146,7 @@ TEST(OutlineAngle, AHeapWithAFlatTopHasFlanks) {
 }
 
 TEST(OutlineAngle, TheFootOfALayerIsNearItsEnd) {
-  // Its top falls by a quarter of its height: a line that meets the ground four times as far away.
+  // Its top falls by a quarter of its height: its line would meet the ground four times as far out.
   const OutlineAngle angle = measure_outline(
       outline_of([](double along) { return std::max(0.0, 40 - .03 * std::abs(along - 350)); }));
   ASSERT_TRUE(angle.left && angle.right);

@@ -66,7 +66,7 @@ TEST(Overlay, LinesShowOnAnyBackground) {
     const Picture overlay =
         draw_overlay(plain_picture(kWidth, kHeight, static_cast<std::uint8_t>(brightness)),
                      measured_triangle(kWidth, kHeight));
-    // Middle of the left flank's window, of the ground line: coloured, so not grey.
+    // Middle of the left flank's window and of the ground line: coloured, so not grey.
     for (const cv::Vec3b& colour :
          {pixel(overlay, 0.3 * kWidth, 0.6 * kHeight), pixel(overlay, 500, 0.8 * kHeight)}) {
       const auto [low, high] = std::minmax({colour[0], colour[1], colour[2]});

@@ -28,12 +28,12 @@ inline WorkingPicture work_of(const cv::Mat& bgr) { return working_picture(pictu
 
 inline ReposeAngle measured_in(const cv::Mat& bgr) { return measure_repose_angle(picture_of(bgr)); }
 
-/// NaN where there is no angle.
+/// NaN if there is no angle.
 inline double deg(std::optional<double> angle_rad) { return angle_rad.value_or(NAN) / kDegree; }
 
-inline constexpr int kUsualWidth = 800;  ///< of drawn heaps: the width that is worked at
+inline constexpr int kUsualWidth = 800;  ///< of drawn heaps: the measurement's working width
 
-/// A generated heap at another width, to save time.
+/// A drawn heap at another width, to save time.
 inline testing::DrawnHeap drawn(const char* condition, std::uint64_t seed, int width) {
   testing::HeapScene scene = testing::condition_named(condition).scene(seed);
   scene.height = scene.height * width / scene.width;
@@ -54,7 +54,7 @@ inline cv::Mat1b mask_of(const testing::DrawnHeap& heap) {
   return mask;
 }
 
-/// Share of the two regions together that is in both.
+/// Intersection of the two regions / their union.
 inline double overlap(const cv::Mat1f& inside, const cv::Mat1b& heap) {
   const cv::Mat1b found = inside > 0;
   return static_cast<double>(cv::countNonZero(found & heap)) / cv::countNonZero(found | heap);

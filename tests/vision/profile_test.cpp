@@ -21,7 +21,7 @@ constexpr int kEdgeCols = 400;
 constexpr int kEdgeRows = 200;
 constexpr double kEdgeGround = 180;
 
-/// Everything a profile is read from, made of one upper edge y(x).
+/// Everything a profile is read from, made from one upper edge y(x).
 struct EdgeScene {
   WorkingPicture work = work_of(cv::Mat3b(kEdgeRows, kEdgeCols, cv::Vec3b(200, 200, 200)));
   Segmentation segmentation{"made", cv::Mat1f(kEdgeRows, kEdgeCols)};
@@ -42,7 +42,7 @@ struct EdgeScene {
   Profile profile() const { return upper_profile(body, segmentation, work); }
 };
 
-/// 100 high on the ground line, 30 degrees to both sides.
+/// 100 high on the ground line, 30 degrees on both sides.
 double heap_y(double x) {
   return kEdgeGround - std::max(0.0, 100 - std::tan(30 * kDegree) * std::abs(x - 200));
 }
@@ -54,7 +54,7 @@ double height_at(const Profile& profile, double along) {
   return -1;
 }
 
-/// The heap on a thin layer, which reaches from one x to another.
+/// The heap on a thin layer between two values of x.
 Profile with_layer(double height, double from, double to) {
   return EdgeScene([=](double x) {
            return x < from || x > to ? heap_y(x) : std::min(heap_y(x), kEdgeGround - height);
@@ -89,7 +89,7 @@ TEST(UpperProfile, HasTheEdgesHeightInEveryColumn) {
   const Profile profile = EdgeScene(heap_y).profile();
   ASSERT_GT(profile.size(), 300);
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    EXPECT_NEAR(profile.height[i], kEdgeGround - heap_y(profile.along[i]), 1e-4);  // floats of 200
+    EXPECT_NEAR(profile.height[i], kEdgeGround - heap_y(profile.along[i]), 1e-4);  // float at 200
   }
   EXPECT_NEAR(profile.along[profile.crest], 200, 1);
   // Smoothing over 9 columns, a fortieth, takes 1.3 off the tip.
@@ -97,7 +97,7 @@ TEST(UpperProfile, HasTheEdgesHeightInEveryColumn) {
   EXPECT_FALSE(profile.leaves_frame_left || profile.leaves_frame_right || profile.leaves_frame_top);
 }
 
-/// Light that a lens blurs over a pixel, cut at half its step, as segmentations are made.
+/// Light blurred over a pixel by the lens, cut at half its step, as in segmentations.
 TEST(UpperProfile, FindsABlurredEdgeFinerThanAPixel) {
   for (double fraction = 0; fraction < 1; fraction += 0.1) {
     EdgeScene scene([&](double) { return 90 + fraction; });
@@ -114,7 +114,7 @@ TEST(UpperProfile, FindsABlurredEdgeFinerThanAPixel) {
 
 TEST(UpperProfile, IsMeasuredFromATiltedGround) {
   const PictureLine ground{150, std::tan(4 * kDegree)};
-  // 50 above the ground line, square to it.
+  // 50 above the ground line, perpendicular to it.
   const EdgeScene scene([&](double x) { return ground.y(x) - 50 / std::cos(4 * kDegree); }, ground);
   EXPECT_THAT(scene.profile().height, Each(::testing::DoubleNear(50, 1e-4)));
 }
@@ -144,7 +144,7 @@ TEST(UpperProfile, AWallAtTheEndIsTakenOut) {
 }
 
 TEST(UpperProfile, AHeapsOwnEdgeIsKept) {
-  // A half heap whose crest leans on a wall that is not seen: it begins with its full height.
+  // A half heap whose crest leans against an invisible wall: it begins at its full height.
   const auto half_heap = [](double x) {
     return x < 80 ? kEdgeRows : kEdgeGround - std::max(0.0, 150 - 0.6 * (x - 80));
   };

@@ -42,7 +42,7 @@ struct Triangle {
   }
 };
 
-/// A heap of unlike sides: their angles and its shape.
+/// A heap with unequal sides: their angles and its shape.
 inline constexpr double kLeft_rad = 20 * kDegree;
 inline constexpr double kRight_rad = 30 * kDegree;
 inline const Triangle kTriangle{350, 110, std::tan(kLeft_rad), std::tan(kRight_rad)};

@@ -12,7 +12,7 @@ namespace {
 TEST(Proposal, ATimerBeforeTheHeapMayBeLeftOut) {
   const auto heap = drawn("clean", 2, 800);
   cv::Mat3b picture = mat_of(heap.picture).clone();
-  // A lettered plate from the frame's top to the crest joins it with the heap.
+  // A lettered plate at the crest joins the heap.
   const int crest_x = static_cast<int>((heap.ground.from.x + heap.ground.to.x) / 2);
   const int crest_y = static_cast<int>(heap.ground.from.y - heap.height_px);
   const cv::Rect plate(crest_x - 60, crest_y - 30, 120, 44);
@@ -24,7 +24,7 @@ TEST(Proposal, ATimerBeforeTheHeapMayBeLeftOut) {
   ASSERT_TRUE(proposal);
   ASSERT_TRUE(proposal->angle_rad);
   EXPECT_NEAR(*proposal->angle_rad, *heap.mean_rad(), 1.5 * kDegree);
-  // Followed, it gives what it promises.
+  // Applied, it gives the promised angle.
   MeasureOptions options;
   if (proposal->excluded) options.excluded.push_back(*proposal->excluded);
   options.hints.heap = proposal->heap;
@@ -45,7 +45,7 @@ TEST(Proposal, ABoxAroundAHeapReachesOverItsCrestEvenIfThatLiesInAShadow) {
   EXPECT_NEAR(*proposal->angle_rad / kDegree, kSilhouette_deg, 2);
 }
 
-/// The turn that sets a picture upright again is what undoes this.
+/// A picture that a turn by `turn_deg` sets upright again.
 Picture lying(const Picture& upright, int turn_deg) { return turned(upright, 360 - turn_deg); }
 
 TEST(Proposal, APictureThatLiesOnItsSideIsToBeTurned) {

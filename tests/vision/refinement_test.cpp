@@ -21,7 +21,7 @@ cv::Mat1b triangle_mask(int half_base, int height) {
   return mask;
 }
 
-/// A brown heap before a grey backdrop, both noisy, in light that falls off by half to the right.
+/// A brown heap in front of a grey backdrop, both noisy, in light that halves to the right.
 struct LitScene {
   cv::Mat1b heap = triangle_mask(200, 120);
   WorkingPicture work;
@@ -74,7 +74,7 @@ TEST(LearnedSegmentation, NothingIsInsideBelowTheGround) {
 }
 
 TEST(LearnedSegmentation, ExcludedPixelsTeachNothing) {
-  const cv::Rect label(140, 225, 320, 100);  // grey as the backdrop, over most of the heap
+  const cv::Rect label(140, 225, 320, 100);  // grey like the backdrop, over most of the heap
   const auto overlap_beside_label = [&](bool exclude) {
     LitScene scene;
     cv::cvtColor(cv::Mat3f(label.size(), cv::Vec3f(0.6F, 0.6F, 0.6F)), scene.work.lab(label),
@@ -106,7 +106,7 @@ TEST(GrabCutSegmentation, SameSeedGivesTheSameBits) {
   const LitScene scene;
   const Body rough = body_of(triangle_mask(170, 100));
   const cv::Mat1f first = grabcut_segmentation(scene.work, rough, 3).inside;
-  cv::theRNG().next();  // what others drew from the thread's generator does not matter
+  cv::theRNG().next();  // previous draws from the thread's generator do not matter
   const cv::Mat1f second = grabcut_segmentation(scene.work, rough, 3).inside;
   EXPECT_EQ(cv::norm(first, second, cv::NORM_INF), 0);
 }

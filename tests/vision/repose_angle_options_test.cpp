@@ -11,7 +11,7 @@
 #include "vision/measure/camera_pitch.h"
 #include "vision/measure/repose_angle.h"
 
-/// What the options of a measurement do, and which are refused.
+/// The effects of a measurement's options, and which are refused.
 namespace repose::vision {
 namespace {
 
@@ -64,7 +64,7 @@ TEST(MeasureOptions, PitchMustBeANumberUpTo30Degrees) {
   }
 }
 
-/// What the exception says; empty when there is none.
+/// The exception's message; empty if there is none.
 std::string refusal_of(const Picture& picture, const MeasureOptions& options) {
   try {
     measure_repose_angle(picture, options);
@@ -106,7 +106,7 @@ TEST(MeasureReposeAngle, FitsTheWindowThatIsAskedFor) {
   const ReposeAngle upper = measure_repose_angle(heap.picture, window(0.5, 0.9));
   EXPECT_THAT(upper.window, ElementsAre(0.5, 0.9));
   EXPECT_NEAR(static_cast<double>(upper.left.points) / usual.left.points, 4. / 6, 0.15);
-  // The lowest edge point lies half way up, give or take two grains.
+  // The lowest edge point lies halfway up, give or take two grains.
   const double base_y = (heap.ground.from.y + heap.ground.to.y) / 2;
   const Point lowest = *std::max_element(upper.left.edge.begin(), upper.left.edge.end(),
                                          [](Point a, Point b) { return a.y < b.y; });
@@ -116,7 +116,7 @@ TEST(MeasureReposeAngle, FitsTheWindowThatIsAskedFor) {
 TEST(MeasureReposeAngle, LowWindowsLetTheToeIn) {
   const auto heap = drawn("concave_toe", 1, kUsualWidth);
   MeasureOptions low = window(0.0, 0.4);
-  low.method = Method::paper;  // it leaves no apron out
+  low.method = Method::paper;  // it does not exclude aprons
   const auto silhouette = drawn("silhouette", 1, kUsualWidth);
   EXPECT_LT(deg(measure_repose_angle(heap.picture, window(0.02, 0.5)).angle_rad),
             deg(measure_repose_angle(heap.picture).angle_rad));
@@ -196,7 +196,7 @@ TEST(MeasureReposeAngle, ThePitchsIntervalAllowsForANearCamera) {
 }
 
 TEST(MeasureReposeAngle, AnUntoldPitchsIntervalAllowsForACameraLevelledByEye) {
-  const auto heap = drawn("clean", 2, kUsualWidth);  // level with its plate: the base is not seen
+  const auto heap = drawn("clean", 2, kUsualWidth);  // level with its plate: the base is hidden
   const ReposeAngle told = measured_with_pitch(heap.picture, 0);
   const ReposeAngle untold = measure_repose_angle(heap.picture);
   EXPECT_NEAR(*untold.uncertainty_rad - *told.uncertainty_rad,
@@ -208,7 +208,7 @@ TEST(MeasureReposeAngle, AnUntoldPitchsIntervalAllowsForACameraLevelledByEye) {
               1e-12);
 }
 
-/// A dark cone before a pale backdrop, seen by a far camera that looks down.
+/// A dark cone in front of a pale backdrop, seen by a distant camera that looks down.
 cv::Mat3b cone_picture(double angle_rad, double pitch_rad) {
   constexpr double kRadius = 220;
   constexpr double kSixteenth = 16;  // of a pixel; OpenCV's pixel centres are whole
@@ -234,7 +234,7 @@ TEST(MeasureReposeAngle, TheIntervalHoldsWhatAnUntoldPitchDoesToABaseThatBows) {
     const ReposeAngle result =
         measure_repose_angle(picture_of(cone_picture(angle, pitch_deg * kDegree)));
     ASSERT_TRUE(result.angle_rad) << result.reason;
-    // The ellipse's far half shows beside the flanks' feet and hides a little of the bow.
+    // The ellipse's far half is visible beside the flanks' feet and hides a little of the bow.
     EXPECT_LE(std::abs(*result.angle_rad - angle), 1.1 * *result.uncertainty_rad) << pitch_deg;
     const bool is_said =
         std::any_of(result.warnings.begin(), result.warnings.end(),
@@ -250,7 +250,7 @@ TEST(PaperMethod, GivesTheTruthOfASilhouette) {
     options.method = Method::paper;
     const ReposeAngle result = measure_repose_angle(heap.picture, options);
     EXPECT_EQ(result.method, Method::paper);
-    // Large grains move a flank by chance; the method adds nothing to that.
+    // Large grains move a flank at random; the method adds nothing to that.
     EXPECT_NEAR(deg(result.angle_rad), deg(heap.mean_rad()), 0.5) << seed;
     EXPECT_EQ(result.left.angle_rad, result.left.least_squares_rad);
     EXPECT_EQ(deg(result.ground_tilt_rad), 0);

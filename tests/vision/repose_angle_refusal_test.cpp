@@ -7,7 +7,7 @@
 #include "tests/vision/pictures.h"
 #include "vision/measure/repose_angle.h"
 
-/// Pictures without a heap, or without a whole one: no number instead of a wrong one.
+/// Pictures without a heap, or with only part of one: no number rather than a wrong one.
 namespace repose::vision {
 namespace {
 

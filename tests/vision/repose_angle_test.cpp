@@ -9,7 +9,7 @@
 
 #include "tests/vision/pictures.h"
 
-/// The promises of the whole measurement on pictures whose angles are known. Errors are in degrees.
+/// Accuracy of the whole measurement on pictures whose angles are known. Errors are in degrees.
 namespace repose::vision {
 namespace {
 
@@ -31,8 +31,8 @@ TEST_P(Truth, IsMetWithinToleranceAndInterval) {
     ASSERT_TRUE(result.angle_rad && result.uncertainty_rad) << seed << ": " << result.reason;
     const double error_deg = deg(result.angle_rad) - deg(heap.mean_rad());
     EXPECT_LT(std::abs(error_deg), GetParam().tolerance_deg) << seed;
-    // A 95 % interval may miss one picture in twenty; twice its width, 3.9 standard deviations,
-    // next to none.
+    // A 95 % interval may miss one picture in twenty; at twice its width, 3.9 standard deviations,
+    // almost none.
     EXPECT_LT(std::abs(error_deg), 2 * deg(result.uncertainty_rad)) << seed;
     EXPECT_LT(deg(result.uncertainty_rad), 1) << seed;
     EXPECT_NEAR(deg(result.ground_tilt_rad), heap.ground_tilt_rad / kDegree, 0.3) << seed;
@@ -41,8 +41,8 @@ TEST_P(Truth, IsMetWithinToleranceAndInterval) {
   }
 }
 
-// The aim is half of all errors below 0.15 on clean and 0.3 on other pictures; these tolerances
-// are the aims for 95 of 100, the chance outline of the grains (0.1) within them.
+// The target is half of all errors below 0.15 on clean and 0.3 on other pictures; these tolerances
+// are the targets for 95 of 100, including the random outline of the grains (0.1).
 INSTANTIATE_TEST_SUITE_P(Conditions, Truth,
                          ::testing::Values(Promise{"clean", 0.5}, Promise{"inverted_white", 0.5},
                                            Promise{"asymmetric", 0.5}, Promise{"silhouette", 0.5},
@@ -53,8 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Conditions, Truth,
                                            Promise{"truncated", 1}),
                          [](const auto& p) { return std::string(p.param.condition); });
 
-/// What must not change the angle. A change of 0.3 degrees, where the aim for errors is 0.15 and
-/// 0.3, would be as large as all else together.
+/// Largest effect of changes that must not matter. A change of 0.3 degrees, with targets for errors
+/// of 0.15 and 0.3, would be as large as all other errors together.
 constexpr double kSame_deg = 0.3;
 
 void expect_same(const ReposeAngle& one, const ReposeAngle& other) {
@@ -72,7 +72,7 @@ std::ostream& operator<<(std::ostream& out, const Subject& subject) {
   return out << subject.condition << subject.seed;
 }
 
-/// The ground as far as it enters the sides.
+/// The ground, in so far as it affects the sides.
 TEST(ReposeAngle, SidesAreRightWhereASegmentationBleedsIntoThePlate) {
   for (const std::uint64_t seed : {3, 4}) {
     const auto heap = drawn("asymmetric", seed, kUsualWidth);
@@ -105,7 +105,7 @@ TEST_P(Invariance, SizeDoesNotMatter) {
     cv::resize(picture_, sized, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
     const ReposeAngle result = measured_in(sized);
     expect_same(result, plain_);
-    // A pixel of the half-sized picture; lengths are in the picture's own pixels.
+    // A pixel of the half-size picture; lengths are in the picture's own pixels.
     EXPECT_NEAR(result.height_px.value_or(0), scale * plain_.height_px.value_or(0), 2 * scale + 1);
   }
 }
@@ -129,8 +129,8 @@ TEST_P(Invariance, ColourChannelsMayBePermuted) {
   expect_same(measured_in(permuted), plain_);
 }
 
-// From the fourth on, a segmentation that sees the flanks sharply bleeds into the plate in the
-// picture or in one of its changed copies.
+// From the fourth on, a segmentation with sharp flanks bleeds into the plate in the picture or in
+// one of its modified copies.
 INSTANTIATE_TEST_SUITE_P(Conditions, Invariance,
                          ::testing::Values(Subject{"clean", 2}, Subject{"silhouette", 2},
                                            Subject{"roll", 2}, Subject{"inverted_white", 2},
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Conditions, Invariance,
                                            Subject{"ruler_strays", 2}, Subject{"cylinder", 2}),
                          ::testing::PrintToStringParamName());
 
-/// Everything that a user sees, bit by bit.
+/// Compares everything that a user sees, bit by bit.
 void expect_identical(const ReposeAngle& one, const ReposeAngle& other) {
   EXPECT_EQ(one.angle_rad, other.angle_rad);
   EXPECT_EQ(one.uncertainty_rad, other.uncertainty_rad);
@@ -153,7 +153,7 @@ void expect_identical(const ReposeAngle& one, const ReposeAngle& other) {
 }
 
 TEST(ReposeAngle, SamePictureGivesTheSameBitsAlsoBesideOtherThreads) {
-  // This one goes the long way: GrabCut, which draws random numbers, has the last word.
+  // This one uses the whole chain: GrabCut, which draws random numbers, decides.
   const auto heap = drawn("clean", 1, 640);
   const auto other = drawn("dark", 1, 640);
   const ReposeAngle first = measure_repose_angle(heap.picture);
@@ -175,11 +175,11 @@ TEST(ReposeAngle, SeedMovesTheIntervalALittleAndTheAngleNotAtAll) {
   const ReposeAngle two = measure_repose_angle(heap.picture, other);
   EXPECT_EQ(one.angle_rad, two.angle_rad);
   EXPECT_NE(one.uncertainty_rad, two.uncertainty_rad);
-  EXPECT_NEAR(*two.uncertainty_rad / *one.uncertainty_rad, 1, 0.2);  // 300 resamples: 4 % a side
+  EXPECT_NEAR(*two.uncertainty_rad / *one.uncertainty_rad, 1, 0.2);  // 300 resamples: 4 % per side
 }
 
 TEST(ReposeAngle, TheBaseEndsWithTheHeapAndNotWithThePlate) {
-  for (const char* condition : {"uneven_light", "roll"}) {  // which showed strips of the plate
+  for (const char* condition : {"uneven_light", "roll"}) {  // which used to include strips of plate
     const auto heap = testing::draw_heap(testing::condition_named(condition).scene(3));
     const ReposeAngle result = measure_repose_angle(heap.picture);
     const double base_px = heap.ground.to.x - heap.ground.from.x;
@@ -207,7 +207,7 @@ TEST(ReposeAngle, TellsWhatItSaw) {
   EXPECT_EQ(result.definitions.size(), 5);
 }
 
-/// Angle of a drawn segment against the drawn ground.
+/// Angle between a drawn segment and the drawn ground.
 double segment_deg(const Segment& line, double tilt_rad) {
   const double slope = (line.to.y - line.from.y) / (line.to.x - line.from.x);
   return std::abs(std::atan(slope) - tilt_rad) / kDegree;
@@ -221,7 +221,7 @@ TEST(ReposeAngle, DrawnLinesHaveTheAnglesThatAreTold) {
     const ReposeAngle result = measured_in(sized);
     for (const Flank* flank : {&result.left, &result.right}) {
       ASSERT_TRUE(flank->line && flank->angle_rad);
-      // Columns and rows are shrunk to whole working pixels, by factors that differ by 1 in 800.
+      // Width and height are reduced to whole working pixels, by factors that differ by 1 in 800.
       EXPECT_NEAR(segment_deg(*flank->line, *result.ground_tilt_rad), deg(flank->angle_rad), 0.05);
     }
     EXPECT_NEAR(std::atan2(result.ground->to.y - result.ground->from.y,

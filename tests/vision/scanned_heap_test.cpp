@@ -44,7 +44,7 @@ ScannedHeap measured_scan(ScanPoints points, const ScanOptions& options = {.unit
   return measure_scan(scan, options);
 }
 
-/// The cone's angle and volume within their intervals, and these are narrow.
+/// The cone's angle and volume are within their intervals, and these are narrow.
 void expect_cone(const ScannedHeap& heap, double angle_within_deg = .3,
                  double volume_within = .01) {
   ASSERT_NE(heap.angle.status, MeasureStatus::refused) << heap.angle.reason;
@@ -113,7 +113,7 @@ TEST(ScannedHeap, AHollowHeapsVolumeIsItsOwn) {
       2 * std::numbers::pi * kConeHeight * kRadius * kRadius / ((kPower + 1) * (kPower + 2)) / 1000;
   EXPECT_NEAR(heap.volume_ml->value, volume_ml, heap.volume_ml->uncertainty);
   EXPECT_LT(heap.volume_ml->uncertainty, .01 * volume_ml);
-  // The chord between 20 and 80 % of the height, which the line of least squares lies near.
+  // The chord between 20 and 80 % of the height, which is close to the least-squares line.
   const auto place = [](double part) { return kRadius * (1 - std::pow(part, 1 / kPower)); };
   const double chord_deg = to_degrees(std::atan(.6 * kConeHeight / (place(.2) - place(.8))));
   EXPECT_NEAR(to_degrees(*heap.angle.angle_rad), chord_deg, 1);
@@ -235,7 +235,7 @@ TEST(ScannedHeap, WindowsAndUnitsThatCannotBeMeantAreRefused) {
   EXPECT_THAT(error_of([] { measured_scan({}, {.unit_mm = 0}); }), HasSubstr("unit"));
 }
 
-/// Points a millimetre and more apart over a square.
+/// Points on a grid of step `step_mm` over a square.
 template <class Surface>
 ScanPoints sampled(double half_mm, double step_mm, const Surface& surface) {
   ScanPoints points;
@@ -250,7 +250,7 @@ double cone_at(double x, double y) {
 }
 
 TEST(ScannedHeap, AScanThatIsBentAsAWholeHasWiderIntervals) {
-  for (const double bow : {-5e-5, -2e-5, 2e-5, 5e-5}) {  // up to 3.4 mm where the square ends
+  for (const double bow : {-5e-5, -2e-5, 2e-5, 5e-5}) {  // up to 3.4 mm at the square's edge
     const ScannedHeap heap = measured_scan(
         sampled(260, 2, [&](double x, double y) { return cone_at(x, y) + bow * (x * x + y * y); }));
     ASSERT_TRUE(heap.volume_ml.has_value()) << bow << ": " << heap.size_reason;
@@ -277,7 +277,7 @@ TEST(ScannedHeap, ADiscAsWideAsTheHeapIsFlaggedAsAStep) {
   EXPECT_THAT(on_disc(0).angle.warnings, ::testing::Not(scan_warns("step_at_foot")));
 }
 
-/// A cone with the ground around it up to `width` times its foot raised.
+/// A cone on ground that is raised within `width` times the foot's radius.
 ScannedHeap on_ledge(double width, double height_mm, double aside_mm = 0) {
   return measured_scan(sampled(330, 1.5, [&](double x, double y) {
     return cone_at(x, y) + (std::hypot(x - aside_mm, y) < width * kConeFoot ? height_mm : 0);
@@ -292,7 +292,7 @@ TEST(ScannedHeap, ADiscWiderThanTheHeapIsFlagged) {
     const bool is_seen_through =
         heap.volume_ml && std::abs(heap.volume_ml->value - kConeVolume_ml) <
                               heap.volume_ml->uncertainty + .01 * kConeVolume_ml;
-    if (is_seen_through) continue;  // it was taken for the ground
+    if (is_seen_through) continue;  // the ledge was taken as the ground
     EXPECT_THAT(heap.angle.warnings, scan_warns("ledge_at_foot")) << width << ' ' << height_mm;
     EXPECT_EQ(heap.angle.status, MeasureStatus::flagged);
   }
@@ -323,8 +323,8 @@ TEST(ScannedHeap, MetresThatAreSaidToBeMillimetresAreFlagged) {
               ::testing::Not(scan_warns("unlikely_size")));
 }
 
-// The floor has more points than the table and is taken for the ground: the highest part of that
-// body is a plateau.
+// The floor has more points than the table and is taken as the ground: the top of the body on it is
+// a plateau.
 TEST(ScannedHeap, AHeapOnASmallTableFarAboveTheFloorIsRefused) {
   constexpr double kFoot = 60, kTable = 85, kFloor = -300;
   const ScannedHeap heap = measured_scan(sampled(200, 1, [](double x, double y) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kSceneWidth = 240, kSceneHeight = 160;
 
-/// Brightness as a function of the place.
+/// A scene with the brightness as a function of position.
 template <typename Light>
 cv::Mat scene_of(const Light& light) {
   cv::Mat scene(kSceneHeight, kSceneWidth, CV_8UC3);
@@ -22,14 +22,14 @@ cv::Mat scene_of(const Light& light) {
 
 cv::Vec3b grey_pixel(double level) { return cv::Vec3b::all(cv::saturate_cast<uchar>(level)); }
 
-/// Soft waves of some tens of pixels, moved.
+/// Soft waves of a few tens of pixels, shifted.
 cv::Mat waves(double across_px, double down_px) {
   return scene_of([&](int x, int y) {
     return grey_pixel(150 + 20 * std::sin((x - across_px) / 9) + 20 * std::cos((y - down_px) / 11));
   });
 }
 
-/// A wall that darkens to its corners, with light that falls on one side of it.
+/// A wall that darkens towards its corners, with light falling on one side.
 cv::Mat wall(double light) {
   return scene_of([&](int x, int y) {
     const double off = std::hypot(x - .5 * kSceneWidth, y - .5 * kSceneHeight) / kSceneWidth;

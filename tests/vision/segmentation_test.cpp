@@ -26,7 +26,7 @@ cv::Mat1f two_populations(double low, double high, double deviation) {
 
 cv::Mat1b everywhere(const cv::Mat& like) { return cv::Mat1b(like.size(), 255); }
 
-/// 255 in a triangle that stands on the bottom's upper edge, 0 elsewhere.
+/// 255 in a triangle that stands on a ground at 4/5 of the height, 0 elsewhere.
 cv::Mat1b heap_mask(cv::Size size) {
   cv::Mat1b mask = cv::Mat1b::zeros(size);
   const int ground = size.height * 4 / 5;
@@ -115,7 +115,8 @@ const Segmentation& segmentation_named(const std::vector<Segmentation>& all,
 }
 
 TEST(BlindSegmentations, BackdropModelFollowsAGradient) {
-  // The left of the backdrop is as dark as the heap's right: no brightness separates them.
+  // The left of the backdrop is as dark as the heap's right: no brightness threshold separates
+  // them.
   const cv::Mat1b mask = heap_mask({600, 400});
   cv::Mat3b picture(mask.size());
   testing::Random random(1);
@@ -166,13 +167,13 @@ TEST(RoughSegmentation, FindsGrainsBeforeTheirOwnColour) {
 
 TEST(Roughness, IsTheLocalDeviation) {
   const cv::Mat1f noise = two_populations(50, 50, 5);
-  // 35 pixels lie within the window's reach, the local mean takes a few per cent off.
+  // The window covers 35 pixels; the local mean takes a few per cent off.
   EXPECT_NEAR(cv::mean(roughness(noise, everywhere(noise), 3))[0], 5, 0.5);
   const cv::Mat1f level(50, 50, 7.F);
   EXPECT_NEAR(cv::mean(roughness(level, everywhere(level), 3))[0], 0, 1e-3);
 }
 
-/// Largest difference where the evidence counts.
+/// Largest difference inside the valid mask.
 double largest_difference(const cv::Mat1f& one, const cv::Mat1f& other,
                           const cv::Mat1b& valid_mask) {
   return cv::norm(one, other, cv::NORM_INF, valid_mask);

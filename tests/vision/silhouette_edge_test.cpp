@@ -11,7 +11,7 @@ namespace {
 using ::testing::Each;
 using ::testing::ElementsAre;
 
-/// Dark where a pixel's place says so.
+/// A picture that is dark where `is_dark` is true.
 Picture dark_where(int width, int height, const std::function<bool(int column, int row)>& is_dark) {
   Picture picture{.width = width, .height = height, .bgr = {}};
   for (int row = 0; row < height; ++row) {

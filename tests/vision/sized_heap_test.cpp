@@ -22,7 +22,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// A cone of fine grains on a plain plate, seen by a camera with a lens: each pixel is a ray.
+/// A cone of fine grains on a plain plate, seen by a camera with a lens; drawn by one ray per
+/// pixel.
 struct Stage {
   double height_mm = 75;
   double radius_mm = 150;
@@ -102,7 +103,7 @@ struct Stage {
   }
 };
 
-/// Fine powder shows no grains: a person has said that it is one.
+/// Fine powder shows no grains: a hint marks it as a heap.
 const MeasureOptions kIsHeap = [] {
   MeasureOptions options;
   options.hints.keep = {{365, 270}};
@@ -115,8 +116,8 @@ void expect_holds(const std::optional<Estimate>& estimate, double truth, double 
   EXPECT_LT(estimate->uncertainty, most_part * truth);
 }
 
-/// A drawn edge of pixels without grains is as straight as a ruler, so the interval is nothing but
-/// its floor: a tenth of a degree is allowed for how segmentations place it.
+/// A drawn edge without grains is perfectly straight, so the interval is only its floor: a tenth of
+/// a degree is allowed for the segmentations' placement of it.
 void expect_holds_angle(const ReposeAngle& angle) {
   EXPECT_NEAR(*angle.angle_rad, std::atan2(75, 150), *angle.uncertainty_rad + .1 * kDegree);
 }
@@ -130,7 +131,7 @@ TEST(SizedHeap, ABoardAndALensGivePitchAndSizes) {
   ASSERT_TRUE(heap.board && heap.board->pitch_rad);
   EXPECT_EQ(heap.board->corners, kBoardCorners);
   EXPECT_NEAR(heap.board->pitch_rad->value / kDegree, 2, .3);
-  EXPECT_NEAR(heap.board->pitch_rad->uncertainty / kDegree, 1, .2);  // a board stood up by eye
+  EXPECT_NEAR(heap.board->pitch_rad->uncertainty / kDegree, 1, .2);  // a board set upright by eye
   EXPECT_NEAR(heap.board->roll_rad.value / kDegree, 0, .1);
   EXPECT_NEAR(heap.board->distance_mm->value, 1200, 10);
   EXPECT_DOUBLE_EQ(*heap.angle.camera_pitch_rad, heap.board->pitch_rad->value);
@@ -142,7 +143,7 @@ TEST(SizedHeap, ABoardAndALensGivePitchAndSizes) {
   expect_holds(heap.sizes.right_run_out_mm, 150, .06);
   expect_holds(heap.sizes.cone_volume_ml, cone_volume_ml(300, 75), .16);
   expect_holds_angle(heap.angle);
-  // The line that the heap was found on lies at its front rim, below its middle.
+  // The ground line that was found lies at the heap's front rim, below its middle.
   EXPECT_GT(*heap.angle.height_px * heap.sizes.mm_per_px->value, 75 * 1.03);
 }
 

@@ -11,8 +11,8 @@ constexpr double kOnset_s = 2.0137;
 constexpr double kInterval_s = 1. / 60;
 constexpr double kRate_rad_s = .07;
 
-/// At rest, then sliding by the law with a step and a growth; jittered by a few hundredths of a
-/// pixel, the same each time.
+/// At rest, then sliding with a step and a linear growth of acceleration; jittered reproducibly by
+/// a few hundredths of a pixel.
 std::vector<SlidAt> slide(double step_px_s2, double growth_px_s3, double until_s = 2.6) {
   std::vector<SlidAt> places;
   for (int k = 0; k * kInterval_s < until_s; ++k) {
@@ -33,12 +33,12 @@ void expect_onset(const std::vector<SlidAt>& places, double within_s) {
   EXPECT_LT(onset->latest_s - onset->earliest_s, 4 * within_s);
 }
 
-// Half the time between frames where friction falls at the onset. Where it does not, the first
-// tenth of a second moves the grain by less than its jitter.
+// To half the time between frames if friction falls at the onset. If it does not, the first tenth
+// of a second moves the grain by less than its jitter.
 TEST(SlideOnset, IsTracedBackWhereFrictionFalls) { expect_onset(slide(900, 800), kInterval_s / 2); }
 TEST(SlideOnset, IsTracedBackWhereFrictionStays) { expect_onset(slide(0, 1200), .04); }
 
-// Friction stays the same: x" = g sin(w t) / cos A, so that x = g (w t - sin w t) / (w^2 cos A).
+// Friction is constant: x" = g sin(w t) / cos A, so that x = g (w t - sin w t) / (w^2 cos A).
 TEST(SlideOnset, IsThatOfCoulombsLawOnATurningPlate) {
   constexpr double kGravity_px_s2 = 9806.65 / .4;
   std::vector<SlidAt> places = slide(0, 0);
@@ -50,7 +50,7 @@ TEST(SlideOnset, IsThatOfCoulombsLawOnATurningPlate) {
   expect_onset(places, .03);
 }
 
-// By 6 pixels up the plate, as with a hinge that is 40 pixels beside its place.
+// Shifted by 6 pixels up the plate, as with a hinge found 40 pixels off.
 TEST(SlideOnset, IsTheSameWhereTheHingeIsFoundBesideItsPlace) {
   for (const double step_px_s2 : {900., 0.}) {
     std::vector<SlidAt> places = slide(step_px_s2, 1200);

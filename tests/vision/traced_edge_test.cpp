@@ -14,7 +14,7 @@
 namespace repose::vision {
 namespace {
 
-/// The heap before boards of many colours, one of them the heap's own, all out of focus.
+/// The heap in front of boards of many colours, one of them the heap's own, all out of focus.
 Picture before_many_colours(const testing::DrawnHeap& heap) {
   const cv::Mat3b own = mat_of(heap.picture);
   const cv::Mat1b mask = mask_of(heap);

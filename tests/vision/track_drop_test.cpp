@@ -48,7 +48,7 @@ DropTrack tracked(const DrawnDrop& drop, const TrackOptions& options = {}, doubl
   return track_drop(film_of(folder, drop, plays_at), options);
 }
 
-/// A line of 100 px somewhere, of its right length.
+/// A scale line of 100 px with its correct length.
 TrackOptions scaled_options(const DrawnDrop& drop) {
   return {.scale = ScaleBar{.line = {{20, 30}, {20, 130}}, .length_mm = 100 * drop.mm_per_px}};
 }
@@ -129,7 +129,7 @@ TEST(TrackDropRefuses, AFallWithoutItsRise) {
   EXPECT_THAT(tracked(drop).reason, HasSubstr("no bounce was seen"));
 }
 
-/// A board of 12 px a square beside the fall.
+/// A board with squares of 12 px beside the fall.
 DropTrack tracked_beside_board(const DrawnDrop& drop) {
   return tracked(drop, {.board = BoardPlacing{.square_mm = 12 * drop.mm_per_px}});
 }
@@ -157,7 +157,7 @@ TEST(TrackDrop, HeightsAreByGravityWhereNoBoardIsSeenAndThatIsFlagged) {
   EXPECT_NEAR(track.bounces[0].drop_mm.value, 250, track.bounces[0].drop_mm.uncertainty);
 }
 
-/// What a lens makes of undistorted pictures of its size.
+/// Applies a lens's distortion to undistorted pictures of its size.
 class Distortion {
  public:
   explicit Distortion(const Lens& lens) {
@@ -182,7 +182,7 @@ class Distortion {
   std::vector<std::size_t> from_;
 };
 
-/// Mean distance of the grain's places from those in another film of the same drop.
+/// Mean distance of the grain's positions from those in another film of the same drop.
 double distance_px(const DropTrack& track, const DropTrack& other) {
   double sum = 0;
   int count = 0;
@@ -281,7 +281,7 @@ TEST(TrackDrop, AFolderOfItsFramesIsTheSameFilm) {
   const TemporaryFolder folder;
   const cv::Mat scene = drop.scene();
   for (int frame = 0; frame < drop.frames(); ++frame) {
-    // Two are missing: their time goes by all the same.
+    // Two are missing: their time still passes.
     if (frame == 5 || frame == 30) continue;
     write_picture(folder.path() / ("frame" + std::to_string(frame) + ".png"),
                   drop.picture(frame, scene));
@@ -293,7 +293,7 @@ TEST(TrackDrop, AFolderOfItsFramesIsTheSameFilm) {
   EXPECT_THAT(track.warnings, has_warning("dropped_frames"));
 }
 
-/// Half of the frames from then on, or all of them with time stamps that are twice as far apart.
+/// From frame `from` on, half of the frames, or all of them with time stamps twice as far apart.
 DropTrack tracked_from(const DrawnDrop& drop, int from, bool is_stretched) {
   const TemporaryFolder folder;
   const cv::Mat scene = drop.scene();
@@ -316,7 +316,7 @@ TEST(TrackDrop, HeightsByGravityAreFlaggedWhereItsFramesBeginToComeMoreSlowlyBef
   EXPECT_GT(track.bounces.front().drop_mm.value, 3 * drop.drop_mm) << "as slow motion makes it";
   EXPECT_EQ(track.status, MeasureStatus::flagged);
   EXPECT_THAT(track.warnings, has_warning("speed_changes"));
-  // Flights before and after show that the time stamps are true.
+  // Flights before and after show that the time stamps are correct.
   const DropTrack fewer =
       tracked_from(drop, static_cast<int>(.5 * drop.seconds * drop.frames_per_s), false);
   ASSERT_FALSE(fewer.bounces.empty()) << fewer.reason;
@@ -324,7 +324,7 @@ TEST(TrackDrop, HeightsByGravityAreFlaggedWhereItsFramesBeginToComeMoreSlowlyBef
   EXPECT_NEAR(fewer.bounces.front().drop_mm.value, drop.drop_mm, .1 * drop.drop_mm);
 }
 
-/// A film of some of a drop's frames, whatever the camera did, at even time stamps.
+/// A film of some of a drop's frames, at evenly spaced time stamps.
 DropTrack tracked_frames(const DrawnDrop& drop, const std::vector<int>& frames, double plays_at) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "drop.mp4";
@@ -335,7 +335,7 @@ DropTrack tracked_frames(const DrawnDrop& drop, const std::vector<int>& frames, 
   return track_drop(file);
 }
 
-/// Lasts longer, so that bounces are left when the first is not seen.
+/// Lasts longer, so that bounces remain if the first is missed.
 DrawnDrop bouncy_drop() {
   DrawnDrop drop = small_drop();
   drop.seconds = 2;
@@ -402,7 +402,7 @@ TEST(TrackDrop, AFilmThatChangesItsSpeedIsNamedSo) {
   }
 }
 
-/// A folder of frames without some of them, whose time goes by.
+/// A folder of frames with some missing, whose time still passes.
 DropTrack tracked_without(const DrawnDrop& drop, int from, int to) {
   const TemporaryFolder folder;
   const cv::Mat scene = drop.scene();
@@ -446,7 +446,7 @@ TEST(TrackDrop, AFilmThatPlaysTooFastForAnyBenchIsFlagged) {
   EXPECT_THAT(track.warnings.front().message, HasSubstr("slower or faster"));
 }
 
-/// Of each frame every other row is that of a frame that was taken half a frame later.
+/// In each frame, every other row comes from half a frame interval later.
 std::filesystem::path interlaced_film(const TemporaryFolder& folder, DrawnDrop drop) {
   const double frames_per_s = drop.frames_per_s;
   drop.frames_per_s *= 2;

@@ -64,7 +64,7 @@ TEST(TrackRoll, FindsWhereTheGrainRestsByAScale) {
   expect_rest(tracked_roll(small_roll()), small_roll());
 }
 
-/// A board of 14 px a square above the flat.
+/// A board with squares of 14 px above the flat.
 const BoardPlacing kBoard{.square_mm = 14 * small_roll().mm_per_px};
 
 TEST(TrackRoll, MillimetresComeFromABoard) {

@@ -44,7 +44,7 @@ TiltTrack tracked_tilt(const DrawnTilt& tilt, const TrackOptions& options = {}) 
   return track_tilt(file, options);
 }
 
-/// At 30 frames per second such a plate turns by .2 degrees from frame to frame.
+/// At 30 frames per second the plate turns by .2 degrees per frame.
 void expect_slide(const TiltTrack& track, const DrawnTilt& tilt) {
   ASSERT_TRUE(track.has_reading) << track.reason;
   EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, .3);
@@ -149,7 +149,7 @@ TEST(TrackTilt, FlagsCreepAndAPlateThatWasNotAtRest) {
   EXPECT_THAT(track.warnings, has_warning("creeps"));
 }
 
-// The camera leans, so that the table's edge goes on in the plate's where that ends.
+// The camera is rolled, so that the table's edge continues the plate's.
 TEST(TrackTilt, FlagsATableWhoseEdgeLiesBehindTheLevelPlate) {
   const DrawnTilt tilt{.width = 400,
                        .height = 300,
@@ -173,7 +173,7 @@ TEST(TrackTilt, FlagsATableWhoseEdgeLiesBehindTheLevelPlate) {
   EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, track.angle_deg.uncertainty);
 }
 
-/// A folder of frames, each with its number in it: what is not numbered was not taken.
+/// A folder of numbered frames: a missing number is a frame that was not taken.
 TiltTrack tracked_frames(const DrawnTilt& tilt, const std::function<int(int)>& number_of) {
   const TemporaryFolder folder;
   const cv::Mat scene = tilt.scene();
@@ -198,7 +198,7 @@ TEST(TrackTilt, FramesThatAreMissingAboutTheOnsetWidenItsInterval) {
   EXPECT_THAT(track.warnings, Not(has_warning("jerks")));
   EXPECT_NEAR(track.angle_deg.value, tilt.onset_deg, track.angle_deg.uncertainty);
   EXPECT_GT(track.angle_deg.uncertainty, .15 * tilt.rate_deg_s);
-  // Long before it they do no harm.
+  // Long before the onset they do no harm.
   expect_slide(
       tracked_frames(tilt,
                      [&](int frame) { return frame >= at(.7) && frame < at(1.2) ? -1 : frame; }),
@@ -213,7 +213,7 @@ TEST(TrackTilt, FlagsAPartWhoseTimeStampsAreStretched) {
   ASSERT_TRUE(stretched.has_reading) << stretched.reason;
   EXPECT_EQ(stretched.status, MeasureStatus::flagged);
   EXPECT_THAT(stretched.warnings, has_warning("speed_changes"));
-  // A camera that takes fewer frames from then on has true time stamps.
+  // A camera that takes fewer frames from then on has correct time stamps.
   const TiltTrack fewer = tracked_frames(
       tilt, [=](int frame) { return frame > from && (frame - from) % 2 == 1 ? -1 : frame; });
   ASSERT_TRUE(fewer.has_reading) << fewer.reason;

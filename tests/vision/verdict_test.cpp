@@ -41,7 +41,7 @@ struct JudgedHeap {
     result.uncertainty_rad = result.left.uncertainty_rad = 0.01;
     result.right.uncertainty_rad = 0.01;
   }
-  /// A foot on the right, of which the line has nothing.
+  /// A foot on the right, excluded from the line.
   void give_apron(double from, bool is_high, double change_rad = 0) {
     choice.best.right.apron = Apron{.from = from, .is_high = is_high};
     choice.best.right.apron_rad = change_rad;
@@ -219,7 +219,7 @@ TEST(Judge, AHighApronThatDecidesTheAngleIsRefused) {
   EXPECT_EQ(high.judged().status, MeasureStatus::refused);
 }
 
-/// A hollow flank whose definitions lie apart.
+/// A hollow flank whose definitions differ.
 JudgedHeap hollow_heap(double bend_rad, double other_rad) {
   JudgedHeap heap;
   heap.choice.best.left.bend_rad = bend_rad;

@@ -38,7 +38,7 @@ void write_film(const std::filesystem::path& file, const Picture& picture, int f
   film.close();
 }
 
-/// A row of the matrix by which an MP4 says how its pictures are shown.
+/// A row of an MP4's display matrix.
 std::string row(int first, int second) {
   std::string bytes;
   for (const int number : {first, second, 0}) {
@@ -59,7 +59,7 @@ std::string fixed(double number) {
   return bytes;
 }
 
-/// Says that a film is to be shown as wide as this: its width stands behind the track's matrix.
+/// Sets a film's display width, which is stored after the track's matrix.
 void stretch_film(const std::filesystem::path& file, double width) {
   std::string bytes = testing::text_of(file);
   bytes.replace(bytes.rfind(row(1, 0) + row(0, 1)) + kMatrixBytes, 4, fixed(width));

@@ -6,7 +6,7 @@
 
 namespace repose::vision {
 
-/// Matches a list of warnings of which one has this code.
+/// Matches a list of warnings that includes this code.
 inline auto has_warning(const char* code) {
   return ::testing::Contains(::testing::Field(&Warning::code, code));
 }

@@ -49,7 +49,7 @@ TEST(WorkingPicture, ShrinkingAveragesThePixels) {
   EXPECT_EQ(work_of(checks).bgr(300, 300), cv::Vec3b(100, 100, 100));
 }
 
-/// The left part of another colour, and single pixels of a third one.
+/// The left part in another colour, and single pixels in a third one.
 cv::Mat3b of_colours(const cv::Vec3b& left, const cv::Vec3b& right, int singles,
                      const cv::Vec3b& third) {
   cv::Mat3b picture(750, 1000, right);
@@ -106,7 +106,7 @@ TEST(WorkingPicture, ExcludedBoxesOfAShrunkPictureAreRoundedOutwards) {
 
 TEST(WorkingPicture, APairOfBarsIsNoPartOfThePicture) {
   const WorkingPicture work = work_of(letterboxed(30));
-  // A row of each bar's edge goes with it: a scaled picture has it blurred.
+  // One row at each bar's edge is removed with it: in a scaled picture it is blurred.
   EXPECT_EQ(work.frame, cv::Rect(0, 31, 400, 238));
   EXPECT_EQ(cv::countNonZero(work.valid_mask), work.frame.area());
 }

@@ -1,4 +1,4 @@
-"""A heap in LIGGGHTS: run.py FOLDER fills in the deck, runs it there, and leaves the spheres as the reading."""
+"""A heap in LIGGGHTS: run.py FOLDER fills in the deck, runs it there, and names its spheres as the reading."""
 import json
 import math
 import pathlib
@@ -10,7 +10,7 @@ SIDES = 48
 
 
 def tube_stl(radius, bottom, top):
-    """A tube around the z axis, of flat sides."""
+    """A tube around the z axis, made of flat sides."""
     lines = ["solid tube"]
     places = [(radius * math.cos(2 * math.pi * k / SIDES), radius * math.sin(2 * math.pi * k / SIDES))
               for k in range(SIDES + 1)]
@@ -24,7 +24,7 @@ def tube_stl(radius, bottom, top):
 
 
 def prime_above(number):
-    """LIGGGHTS takes only primes above 10000 for seeds."""
+    """LIGGGHTS accepts only primes above 10000 as seeds."""
     while any(number % divisor == 0 for divisor in range(2, math.isqrt(number) + 1)):
         number += 1
     return number

@@ -1,4 +1,4 @@
-"""A program in ten lines: angle and bulk density by formulas, with some chance. run.py FOLDER"""
+"""A program in ten lines: angle and bulk density from formulas, with random scatter. run.py FOLDER"""
 import json, math, pathlib, random, sys
 
 folder = pathlib.Path(sys.argv[1])

@@ -10,7 +10,7 @@ from yade.wrapper import *
 
 YOUNG_PA, POISSON = 2e6, 0.3
 ROLLING_STIFFNESS = 0.05  # N m/rad
-DAMPING = 0.2             # of the critical one
+DAMPING = 0.2             # fraction of critical
 LIFT_M_S = 0.05
 TIMESTEP_S = 1e-4
 

@@ -1,18 +1,18 @@
-// What the program answers: its own results, as its JSON files have them (docs/json.md), and what the
-// page draws. Nothing is computed here that the program computes.
+// The program's answers: its results, as in its JSON files (docs/json.md), and what the page draws.
+// Nothing is computed here that the program computes.
 
 export type Box = [number, number, number, number];
 export type Line = [number, number, number, number];
 export type Place = [number, number];
 
-// A line with a round brush.
+// A stroke of a round brush.
 export interface BrushStroke {
   says: 'heap' | 'no_heap' | 'nothing';
   width: number;
   path: Place[];
 }
 
-// What a person has said of a picture; places in the pixels of the turned picture.
+// The user's hints for a picture; positions in pixels of the rotated picture.
 export interface Told {
   rotate_deg: number;
   heap: Box | null;
@@ -21,12 +21,12 @@ export interface Told {
   keep: Place[];
   drop: Place[];
   exclude: Box[];
-  scale: {line: Line; length_mm: number | null} | null;  // null: still to be said
+  scale: {line: Line; length_mm: number | null} | null;  // null: not given yet
   board: boolean;
   pitch_deg: number | null;
   window: [number, number];
   definition: string | null;
-  has_mask: boolean;  // saved; what is painted comes over it
+  has_mask: boolean;  // saved; strokes are painted over it
   painted: BrushStroke[];
 }
 
@@ -73,7 +73,7 @@ export interface Marks {
 export interface Answer {
   version: string;
   measured: Measured;
-  told: Told | null;  // null of scans and files of particles
+  told: Told | null;  // null for scans and particle files
   marks: Marks | null;
   command: string;
   proposed: Told | null;
@@ -90,7 +90,7 @@ export interface Folder {
   folder: string;
   name: string;
   program: string;
-  command: string;  // that measures all of it
+  command: string;  // that measures the whole folder
   largest_upload_bytes: number;
   definitions: {name: string; description: string}[];
   files: FileEntry[];
@@ -113,7 +113,7 @@ export interface SetSummary extends Mean {
   outliers: {file: string; angle_deg: number; score: number; counted: boolean}[];
 }
 
-// What a comparison is of: a folder within this one, or files of it.
+// One side of a comparison: a folder within this one, or some of its files.
 export type SetOfHeaps = {folder: string} | {files: string[]};
 
 export interface HeapFolders {
@@ -121,7 +121,7 @@ export interface HeapFolders {
   margin_deg: number;
 }
 
-// As `repose compare --json` has it of two sets.
+// As in `repose compare --json` for two sets.
 export interface Comparison {
   sets: {name: string; n: number; mean_deg: number | null; sd_deg: number | null; interval_deg: [number, number] | null;
     heaps: {file: string; angle_deg: number | null}[]}[];
@@ -160,7 +160,7 @@ const named = (path: string, file: string) => `${path}?file=${encodeURIComponent
 
 const versioned = (path: string, file: string, version: string) => `${named(path, file)}&version=${encodeURIComponent(version)}`;
 
-// A line without its length is no scale yet.
+// A line whose length is not given yet is not a scale.
 const sent = (told: Told) => JSON.stringify(told.scale?.length_mm === null ? {...told, scale: null} : told);
 
 export const api = {
@@ -169,18 +169,18 @@ export const api = {
   measured: (file: string) => asked<Answer>(named('/api/measured', file)),
   measure: (file: string, told: Told) =>
     asked<Answer>(named('/api/measure', file), {method: 'POST', body: sent(told)}),
-  // Both are refused where the file, or what is saved beside it, is not of that version any more.
+  // Both are refused if the file, or what is saved beside it, is no longer of that version.
   save: (file: string, told: Told, version: string) =>
     asked<Answer>(versioned('/api/hints', file, version), {method: 'PUT', body: sent(told)}),
   forget: (file: string, version: string) => asked<Answer>(versioned('/api/hints', file, version), {method: 'DELETE'}),
   add: (file: File) => asked<{file: string}>(named('/api/file', file.name), {method: 'POST', body: file}),
-  // The version makes the browser fetch a picture again that has changed.
+  // The version makes the browser fetch a changed picture again.
   picture: (entry: FileEntry, side: number, rotate_deg: number) =>
     `${versioned('/api/picture', entry.file, entry.version)}&side=${side}&turns=${rotate_deg / 90}`,
   sets: () => asked<HeapFolders>('/api/sets'),
   compare: (first: SetOfHeaps, second: SetOfHeaps, margin_deg: number) =>
     asked<Compared>('/api/comparison', {method: 'POST', body: JSON.stringify({first, second, margin_deg})}),
-  // As `repose compare --overlay` draws it.
+  // As drawn by `repose compare --overlay`.
   comparisonFigure: (number: number, width: number) => `/files/comparison.png?number=${number}&width=${width}`,
   comparisonNumbers: (number: number) => `/files/comparison.json?number=${number}`,
   mask: (file: string, version: string) => versioned('/api/mask', file, version),

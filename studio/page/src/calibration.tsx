@@ -1,4 +1,4 @@
-// A calibration: how long it would take, started, watched, stopped, gone on with; what it found, and its files.
+// A calibration: time estimate, start, progress, stop and resume; its results and files.
 import {useState} from 'preact/hooks';
 import type {Calibration, Estimate, FoundParameter, Progress, Study, Task} from './study_api';
 import {coefficientName, durationText, isAtWork, studies} from './study_api';
@@ -17,7 +17,7 @@ const Strip = ({bounds, interval, value, label}: {bounds: [number, number]; inte
   );
 };
 
-// How each coefficient narrows, round by round: its plausible values, twice their scatter to either side.
+// How each coefficient narrows, round by round: mean of its plausible values ± twice their scatter.
 const Narrowing = ({progress}: {progress: Progress}) => {
   const kWidth = 300, kHeight = 110, kEdge = 40;
   const rounds = progress.rounds;
@@ -51,7 +51,7 @@ const Narrowing = ({progress}: {progress: Progress}) => {
 };
 
 const AtWork = ({task, progress, stop}: {task: Task; progress: Progress | null; stop: () => void}) => {
-  // What an earlier start has left says nothing of this one until it has written its own.
+  // Progress left by an earlier start is not shown; this one has yet to write its own.
   const is_current = progress !== null && task.state !== 'waiting' && progress.seconds <= task.seconds + 2;
   const shown = is_current ? progress : null;
   return (

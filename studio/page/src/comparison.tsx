@@ -1,4 +1,4 @@
-// Two sets of heaps against each other: pictures that were ticked, or folders within this one.
+// Comparison of two sets of heaps: ticked pictures, or folders within this one.
 import {useEffect, useState} from 'preact/hooks';
 import type {Compared, Comparison, HeapFolders, SetOfHeaps} from './api';
 import {api} from './api';

@@ -1,12 +1,12 @@
-// Corrections of the chosen picture: measured as they are made, undone, saved.
+// Corrections of the selected picture: measured as they are made, undone, saved.
 import {useRef, useState} from 'preact/hooks';
 import type {Answer, FileEntry, Told} from './api';
 import {api} from './api';
 
-// A picture that is being corrected. `told` is ahead of `answer` while it is measured.
+// A picture being corrected. `told` is ahead of `answer` during a measurement.
 interface Edit {
   file: string;
-  version: string;  // that it began with: another that is saved meanwhile is not written over
+  version: string;  // at the start; a newer one saved meanwhile is not overwritten
   told: Told;
   answer: Answer;
   past: Told[];  // for undo
@@ -19,7 +19,7 @@ export const useEdit = (entry: FileEntry | null, answer: Answer | undefined, set
   const is_measuring = useRef(false);
   const current = edit && edit.file === entry?.file ? edit : null;
 
-  // One at a time; of those that come meanwhile the newest is next.
+  // One at a time; the newest of the requests that arrive meanwhile is next.
   const measure = async () => {
     if (is_measuring.current) return;
     is_measuring.current = true;
@@ -40,7 +40,7 @@ export const useEdit = (entry: FileEntry | null, answer: Answer | undefined, set
     waiting.current = {file: entry!.file, told};
     void measure();
   };
-  // What a drag began with: one step to undo, however many it was measured in.
+  // State at the start of a drag: one undo step, however many measurements the drag triggers.
   const began = useRef<Told | null>(null);
   const tell = (told: Told, ends: boolean) => {
     if (!entry || !answer?.told) return;
@@ -64,9 +64,9 @@ export const useEdit = (entry: FileEntry | null, answer: Answer | undefined, set
       take(entry!.file, found);
       setEdit(null);
       setTrouble('');
-      await look();  // what is saved beside it is there, or gone
+      await look();  // the file saved beside it has appeared or gone
     } catch (error) {
-      await look();  // who wrote meanwhile
+      await look();  // somebody else may have written meanwhile
       setTrouble((error as Error).message);
     }
   };

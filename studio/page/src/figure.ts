@@ -1,4 +1,4 @@
-// A drawing of the page as a file, in the colours of paper whatever the page's are.
+// Saves a drawing of the page as a file, in print colours whatever the page's theme.
 
 const kInk = '#1c1d20', kSoft = '#55585e', kMean = '#00538f', kOk = '#00614a', kFlagged = '#8a4b00';
 const kPaint: [string, Record<string, string>][] = [
@@ -10,7 +10,7 @@ const kPaint: [string, Record<string, string>][] = [
   ['.dot.ok line', {stroke: kOk}], ['.dot.ok circle', {fill: kOk}],
   ['.dot.flagged line', {stroke: kFlagged}], ['.dot.flagged circle', {fill: kFlagged}],
 ];
-// 16.9 cm, the width of a page's text, at 300 dots an inch.
+// 16.9 cm, the text width of a printed page, at 300 dpi.
 const kPrint_px = 2000;
 const kWide_mm = 169;
 

@@ -21,7 +21,7 @@ export const Files = ({files, answers, errors, filmed, chosen, choose}: Props) =
       {files.map((entry) => {
         const answer = answers.get(entry.file);
         const error = errors.get(entry.file);
-        // Of a drop, a roll or a tilt the heap that is not there says nothing.
+        // The missing heap in a film of a drop, a roll or a tilt means nothing.
         const shows = entry.kind === 'film' ? filmed.get(entry.file) ?? filmedByName(entry.file) : 'heap';
         return (
           <li key={entry.file}>

@@ -1,4 +1,4 @@
-// A film of a drop, a roll or a tilt: tracked as it is looked at, its readings put into a study's sheet.
+// A film of a drop, a roll or a tilt: tracked when viewed; its readings go into a study's sheet.
 import {useEffect, useRef, useState} from 'preact/hooks';
 import type {FileEntry, Line} from './api';
 import type {Bounce, Experiment, FilmTold, TrackAnswer, Tracked} from './film_api';
@@ -8,13 +8,13 @@ import {Badge, Command} from './result';
 import {studies} from './study_api';
 import {Numbers} from './tools';
 
-const kPause_ms = 250;  // after the last change, before it is tracked
+const kPause_ms = 250;  // after the last change, before tracking
 
 export type Filmed = 'heap' | Experiment;
 
 const kFilmed: [Filmed, string][] = [['heap', 'Heap'], ['drop', 'Drop'], ['roll', 'Roll'], ['tilt', 'Tilt']];
 
-/** By its name, until a person says otherwise. */
+/** Guessed from the file name until the user chooses. */
 export const filmedByName = (file: string): Filmed =>
   kFilmed.find(([filmed]) => filmed !== 'heap' && file.toLowerCase().startsWith(filmed))?.[0] ?? 'heap';
 
@@ -58,7 +58,7 @@ const headline = ({experiment, bounces, roll, tilt}: Tracked) => {
   return tilt ? `${within(tilt.angle_deg, tilt.angle_uncertainty_deg, 2)}°` : 'no slide';
 };
 
-// What a roll or a tilt tells beside its reading.
+// Further results of a roll or a tilt besides its reading.
 const Besides = ({tracked: {roll, tilt}, look}: {tracked: Tracked; look: (time_s: number) => void}) => (
   <table>
     <tbody>
@@ -110,7 +110,7 @@ const ToSheet = ({answer, chosen}: {answer: TrackAnswer; chosen: number[]}) => {
   );
 };
 
-// Where millimetres come from.
+// Where the scale comes from.
 const Millimetres = ({told, line, tell, draw}: {told: FilmTold; line: Line | null; tell: (part: Partial<FilmTold>) => void; draw: (line: Line | null) => void}) => (
   <section class="fields" aria-label="Millimetres">
     <h3>Millimetres</h3>
@@ -128,7 +128,7 @@ const Millimetres = ({told, line, tell, draw}: {told: FilmTold; line: Line | nul
 
 export const FilmView = ({entry, experiment, choose}: {entry: FileEntry; experiment: Experiment; choose: (filmed: Filmed) => void}) => {
   const [told, setTold] = useState<FilmTold>({experiment, scale: null, board: false, released_mm: null});
-  const [line, setLine] = useState<Line | null>(null);  // drawn; its length may still be to be said
+  const [line, setLine] = useState<Line | null>(null);  // as drawn; its length may not be given yet
   const [answer, setAnswer] = useState<TrackAnswer | null>(null);
   const [reason, setReason] = useState('');
   const [chosen, setChosen] = useState<number[]>([]);
@@ -142,13 +142,13 @@ export const FilmView = ({entry, experiment, choose}: {entry: FileEntry; experim
     const timer = setTimeout(() => void films.track(entry.file, told).then((found) => {
       if (!is_mine()) return;
       setAnswer(found);
-      // The first alone falls from the height that a study states.
+      // Only the first bounce follows a fall from the height that the study states.
       setChosen((found.tracked.bounces ?? []).filter((bounce) => bounce.number === 1).map((bounce) => bounce.number));
     }, (error: Error) => { if (is_mine()) setReason(error.message); }), kPause_ms);
     return () => clearTimeout(timer);
   }, [entry.file, entry.version, told]);
   const tracked = answer?.tracked ?? null;
-  // Its length stays when a line is drawn anew.
+  // The length is kept if the line is redrawn.
   const draw = (drawn: Line | null) => {
     setLine(drawn);
     if (told.scale || told.board) setTold({...told, scale: drawn && told.scale && {...told.scale, line: drawn}, board: false});

@@ -1,4 +1,4 @@
-// What the program answers of films of drops, rolls and tilts, as `repose track --json` has it.
+// The program's answers about films of drops, rolls and tilts, as in `repose track --json`.
 import type {FileEntry, Line} from './api';
 import {asked} from './api';
 
@@ -42,7 +42,7 @@ export interface Tracked {
   unread_bounces?: {number: number; time_s: number | null}[];
   roll?: Roll | null;
   tilt?: Tilt | null;
-  track: {path: [number, number, number][]} | null;  // time in s, place of the grain in pixels
+  track: {path: [number, number, number][]} | null;  // time in s, position of the grain in pixels
 }
 
 export interface TrackAnswer {
@@ -51,7 +51,7 @@ export interface TrackAnswer {
   command: string;
 }
 
-// What a person says of a film; places in its pixels.
+// The user's hints for a film; positions in its pixels.
 export interface FilmTold {
   experiment: Experiment;
   scale: {line: Line; length_mm: number} | null;

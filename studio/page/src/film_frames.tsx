@@ -1,4 +1,4 @@
-// A film frame by frame: a slider through it, where the grain was, and a known length to be drawn.
+// A film frame by frame, with a slider, the grain's position, and a known length to be drawn.
 import {useEffect, useRef, useState} from 'preact/hooks';
 import type {FileEntry, Line} from './api';
 import type {FilmFrames, Tracked} from './film_api';
@@ -10,10 +10,10 @@ interface Props {
   time_s: number;
   look: (time_s: number) => void;
   line: Line | null;  // of a known length
-  draw: ((line: Line) => void) | null;  // null: millimetres are not asked for
+  draw: ((line: Line) => void) | null;  // null: no scale is needed
 }
 
-// The place in a list of times that is nearest to one.
+// Index of the nearest time in a list.
 const nearest = (times_s: number[], time_s: number) =>
   times_s.reduce((best, one, k) => (Math.abs(one - time_s) < Math.abs(times_s[best]! - time_s) ? k : best), 0);
 
@@ -31,7 +31,7 @@ export const Frames = ({entry, tracked, time_s, look, line, draw}: Props) => {
   const shown_s = film.times_s[number] ?? 0;
   const path = tracked?.track?.path ?? [];
   const seen = path.length > 0 ? path[nearest(path.map(([at_s]) => at_s), shown_s)]! : null;
-  // Between two frames it is where it was seen; before and after it is not known.
+  // Shown within 1.5 frames of where it was seen; before and after that its position is unknown.
   const step_s = film.times_s.length > 1 ? film.times_s[film.times_s.length - 1]! / (film.times_s.length - 1) : 1;
   const is_seen = seen !== null && Math.abs(seen[0] - shown_s) <= 1.5 * step_s;
   const placeAt = (event: PointerEvent): [number, number] => {

@@ -1,17 +1,17 @@
-// The folder's files, measured as they come; again when their version changes.
+// The folder's files, measured as they arrive, and again when their version changes.
 import {useCallback, useEffect, useRef, useState} from 'preact/hooks';
 import type {Answer, Folder, Marks} from './api';
 import {api} from './api';
 import {useLooking} from './watched';
 
 const kLookAgain_ms = 3000;
-// A browser has six connections to one server; pictures and the hand need some.
+// A browser opens six connections to a server; pictures and the user's actions need some of them.
 const kAtOnce = 3;
 
-// Of a thousand pictures the outlines would fill the browser.
+// The outlines of a thousand pictures would fill the browser's memory.
 const withoutMarks = (answer: Answer): Answer => ({...answer, marks: null});
 
-// The file to measure next: the one that is looked at, before all others.
+// The file to measure next: the one in view before all others.
 const nextOf = (folder: Folder | null, asked: Map<string, string>, chosen: string | null) => {
   const isNew = ({file, version}: Folder['files'][number]) => asked.get(file) !== version;
   return folder?.files.find((entry) => entry.file === chosen && isNew(entry)) ?? folder?.files.find(isNew);
@@ -63,7 +63,7 @@ export const useFolder = (chosen: string | null) => {
   }, [work]);
   useLooking(look, kLookAgain_ms);
 
-  // What is looked at has its lines again, which the studio has kept.
+  // Fetches the lines of the file in view again; the studio has kept them.
   const file = chosen ?? folder?.files[0]?.file ?? null;
   const version = file ? answers.get(file)?.version : undefined;
   useEffect(() => {

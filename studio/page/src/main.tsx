@@ -1,4 +1,4 @@
-// The page: files on the left, the chosen one in the middle, what was measured beside it; or all as a set.
+// The page: files on the left, the selected one in the middle, its results beside it; or all as a set.
 import {render} from 'preact';
 import {useEffect, useState} from 'preact/hooks';
 import {api} from './api';
@@ -22,11 +22,11 @@ const App = () => {
   const [tool, setTool] = useState<Tool>('move');
   const [brush, setBrush] = useState<Brush>({says: 'heap', width: 0.04});
   const [is_over, setIsOver] = useState(false);
-  const [filmed, setFilmed] = useState(new Map<string, Filmed>());  // of films, as a person says
+  const [filmed, setFilmed] = useState(new Map<string, Filmed>());  // the user's choice for each film
   const files = folder?.files ?? [];
   const entry = files.find(({file}) => file === chosen) ?? files[0] ?? null;
   const known = entry ? answers.get(entry.file) : undefined;
-  // Its lines and outline are kept of the one that is looked at alone.
+  // Lines and outline are kept only for the file in view.
   const answer = !known?.told ? known
     : marks?.file === entry!.file && marks.version === known.version ? {...known, marks: marks.marks} : undefined;
   const {current, tell, undo, save, forget, drop, keep} = useEdit(entry, answer, setTrouble, look, take);

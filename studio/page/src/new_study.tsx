@@ -1,9 +1,9 @@
-// A new study, as `repose new` asks for it: what is not said is typical of the grain.
+// A new study, as with `repose new`: values left empty are typical of the grain.
 import {useEffect, useRef, useState} from 'preact/hooks';
 import type {Draft, Form, Said} from './study_api';
 import {studies} from './study_api';
 
-const kPause_ms = 200;  // after the last key, before it is checked
+const kPause_ms = 200;  // after the last key, before checking
 
 const Faults = ({draft, field}: {draft: Draft | null; field: string}) => (
   <>{draft?.faults.filter((fault) => fault.field === field).map(({text}) => <span key={text} class="fault">{text}</span>)}</>
@@ -15,7 +15,7 @@ export const NewStudy = ({started}: {started: (study: string) => Promise<void>})
   const [form, setForm] = useState<Form | null>(null);
   const [said, setSaid] = useState<Said | null>(null);
   const [draft, setDraft] = useState<Draft | null>(null);
-  const [is_named, setIsNamed] = useState(false);  // no fault of a name that nobody has typed yet
+  const [is_named, setIsNamed] = useState(false);  // no error for a name that has not been typed yet
   const [trouble, setTrouble] = useState('');
   const newest = useRef(0);
 

@@ -1,13 +1,13 @@
-// Which experiment would tell what of the coefficients that a study seeks: `repose plan` as a picture.
+// Which experiment would determine which of a study's coefficients: `repose plan` as a picture.
 import {useState} from 'preact/hooks';
 import type {Plan, Study} from './study_api';
 import {coefficientName, isAtWork, studies} from './study_api';
 import {useCalibration} from './watched';
 
-const kSeen = 1;  // uncertainties: less is no effect (docs/between-grains.md)
-const kEnough = .8;  // of the materials, as the command's table counts them
+const kSeen = 1;  // in uncertainties; less counts as no effect (docs/between-grains.md)
+const kEnough = .8;  // fraction of the materials, as in the command's table
 
-// Areas go with the effect; what it is in numbers stands beside.
+// The circles' areas grow with the effects; the numbers stand beside them.
 const Effects = ({plan, names}: {plan: Plan; names: string[]}) => {
   const most = Math.max(kSeen, ...plan.experiments.flatMap(({effects}) => Object.values(effects ?? {})));
   return (

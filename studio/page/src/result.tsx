@@ -1,4 +1,4 @@
-// What was measured in one picture, and the command line that does the same.
+// The result for one picture, and the command line that does the same.
 import {useState} from 'preact/hooks';
 import type {Answer, Folder, Side} from './api';
 import {angleText, lengthText, wayText} from './text';
@@ -29,9 +29,9 @@ interface Props {
   answer: Answer;
   definitions: Folder['definitions'];
   has_changes: boolean;
-  needs_length: boolean;  // of a line that was drawn
+  needs_length: boolean;  // for a line that was drawn
   is_saved: boolean;
-  is_told_here: boolean;  // and not on the command line, as with a lens
+  is_told_here: boolean;  // hints are given here, not on the command line as with a lens
   can_undo: boolean;
   undo: () => void;
   save: () => void;

@@ -13,7 +13,7 @@ interface Row {
   rotate_deg: number;
 }
 
-// One above the other where they would lie on each other.
+// Stacks dots that would overlap.
 const stacked = (rows: Row[], low: number, wide: number) => {
   const ends: number[] = [];
   return rows.map((row) => {

@@ -1,15 +1,15 @@
-// A sheet of readings as a table to type into or paste into, and the numbers of an experiment's protocol:
-// checked by the program as they are typed, saved when asked.
+// A sheet of readings as a table to type or paste into, and the numbers of an experiment's protocol:
+// checked by the program as they are typed, saved on request.
 import {useEffect, useRef, useState} from 'preact/hooks';
 import type {NumbersCheck, SheetCheck, SheetData, Study, StudyExperiment} from './study_api';
 import {coefficientName, studies} from './study_api';
 
-const kPause_ms = 250;  // after the last key, before it is checked
+const kPause_ms = 250;  // after the last key, before checking
 const kFewestRows = 10;
 
 const isBlank = (row: string[]) => row.every((cell) => cell.trim() === '');
 
-// Without the empty ones at the end.
+// Without the empty rows at the end.
 const filledOf = (rows: string[][]) => {
   let count = rows.length;
   while (count > 0 && isBlank(rows[count - 1]!)) --count;
@@ -23,7 +23,7 @@ const withRoom = (rows: string[][], columns: number) => {
   return [...filled, ...Array.from({length: wanted - filled.length}, () => Array<string>(columns).fill(''))];
 };
 
-// What spreadsheets put on the clipboard: rows of cells with tabs between them.
+// The clipboard text of spreadsheets: rows of cells separated by tabs.
 const pasted = (text: string) => text.replace(/\r\n?/g, '\n').replace(/\n$/, '').split('\n').map((line) => line.split('\t'));
 
 interface Props { study: string; experiment: string; sheet: SheetData; reload: () => Promise<void> }
@@ -39,7 +39,7 @@ export const Sheet = ({study, experiment, sheet, reload}: Props) => {
   const table = useRef<HTMLTableElement>(null);
   const newest = useRef(0);
 
-  // Changed in the folder, and not here.
+  // Changed in the folder but not here.
   useEffect(() => {
     if (sheet.version === version || is_changed) return;
     setRows(withRoom(sheet.rows, names.length));
@@ -55,7 +55,7 @@ export const Sheet = ({study, experiment, sheet, reload}: Props) => {
     return () => clearTimeout(timer);
   }, [rows]);
 
-  // A row that is begun repeats what the study says of the bench.
+  // A newly started row is filled with the study's values for the bench.
   const begun = (row: string[], r: number) =>
     isBlank(rows[r] ?? []) && !isBlank(row) ? row.map((cell, c) => (cell === '' ? sheet.columns[c]!.usual ?? '' : cell)) : row;
   const change = (next: string[][]) => {
@@ -66,7 +66,7 @@ export const Sheet = ({study, experiment, sheet, reload}: Props) => {
   const type = (r: number, c: number, text: string) => change(rows.map((row, k) => (k === r ? row.map((cell, j) => (j === c ? text : cell)) : row)));
   const paste = (event: ClipboardEvent, r: number, c: number) => {
     const cells = pasted(event.clipboardData?.getData('text/plain') ?? '');
-    if (cells.length === 1 && cells[0]!.length === 1) return;  // one cell, as usual
+    if (cells.length === 1 && cells[0]!.length === 1) return;  // a single cell: default handling
     event.preventDefault();
     const next = rows.map((row) => [...row]);
     cells.forEach((line, i) => {
@@ -152,7 +152,7 @@ export const Sheet = ({study, experiment, sheet, reload}: Props) => {
   );
 };
 
-// A number of the study file that may be changed.
+// A number in the study file that may be changed.
 interface StudyNumber { section: string; key: string; label: string; value: string; absence: string | null; rule: string }
 
 const StudyNumbers = ({study, name, summary, numbers, reload}: {study: Study; name: string; summary: string; numbers: StudyNumber[]; reload: () => Promise<void>}) => {
@@ -216,7 +216,7 @@ export const Protocol = ({study, experiment, reload}: {study: Study; experiment:
     numbers={experiment.keys.map(({key, value, example, rule, absence}) => ({section: `experiment.${experiment.experiment}`, key, label: key, value, absence, rule: `${rule}, such as ${example}`}))} />
 );
 
-// Between which bounds coefficients are sought, and where the search begins.
+// The bounds of each fitted coefficient, and its value before the fit.
 export const Bounds = ({study, reload}: {study: Study; reload: () => Promise<void>}) => (
   <StudyNumbers study={study} name="bounds" reload={reload} summary="Which coefficients are sought, and between which bounds"
     numbers={(study.sought ?? []).flatMap((one) => (['value', 'min', 'max'] as const).filter((key) => one[key] !== null).map((key) => (

@@ -1,4 +1,4 @@
-// Studies: chosen from those of the folder, or started; the chosen one in steps from its bench to its report.
+// Studies: selected from the folder or newly created; the selected one in steps from bench to report.
 import {useCallback, useEffect, useState} from 'preact/hooks';
 import {CalibrationView} from './calibration';
 import {NewStudy} from './new_study';
@@ -112,7 +112,7 @@ export const Studies = () => {
     }
   }, []);
   useLooking(refresh, kLookAgain_ms);
-  // The first is shown once it is known that there is one.
+  // The first study is shown as soon as there is known to be one.
   const [is_new, setIsNew] = useState(false);
   if (!heads) return <p role="status" class="empty">{trouble || 'looking for studies …'}</p>;
   const shown = is_new ? null : chosen ?? heads[0]?.study ?? null;

@@ -1,5 +1,5 @@
-// What the program answers about studies and their calibrations. Nothing is checked or computed here
-// that the program checks or computes.
+// The program's answers about studies and their calibrations. Nothing is checked or computed here that
+// the program checks or computes.
 import {asked} from './api';
 
 export interface Range { restitution: [number, number]; sliding_friction: [number, number]; rolling_friction: [number, number] }
@@ -13,7 +13,7 @@ export interface Form {
   usual_plate: string;
 }
 
-// What a person has said of a new study, as typed.
+// The user's input for a new study, as typed.
 export interface Said {
   study: string;
   grains: string;
@@ -184,10 +184,10 @@ export const studies = {
   fileAddress: (study: string, name: string) => of('/files/calibration', {study, name}),
 };
 
-/** A task that runs, or waits for those before it. */
+/** A task that is running, stopping, or waiting for those before it. */
 export const isAtWork = (task: Task | null) => task !== null && ['running', 'stopping', 'waiting'].includes(task.state);
 
-// "particle–wall restitution" for contact.particle_wall.restitution.
+// "restitution, particle–wall" for contact.particle_wall.restitution.
 export const coefficientName = (name: string) => {
   const [, pair = '', which = name] = name.split('.');
   return `${which.replaceAll('_', ' ')}, ${pair.replace('particle_', 'particle–')}`;

@@ -1,4 +1,4 @@
-// How results are said.
+// Results in words.
 import type {Comparison, Folder, Mean, Measured} from './api';
 
 export const angleText = (measured: Pick<Measured, 'angle_deg' | 'uncertainty_deg'>) => {
@@ -7,7 +7,7 @@ export const angleText = (measured: Pick<Measured, 'angle_deg' | 'uncertainty_de
   return measured.uncertainty_deg === null ? `${angle}°` : `${angle} ± ${measured.uncertainty_deg.toFixed(2)}°`;
 };
 
-// What the angle is by: its definition in words, or the window that was asked for instead.
+// How the angle is defined: its definition in words, or the requested window instead.
 export const wayText = ({definition, window}: Measured, definitions: Folder['definitions']) => {
   const known = definitions.find(({name}) => name === definition);
   if (known) return `${known.name}: ${known.description}`;

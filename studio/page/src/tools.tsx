@@ -1,4 +1,4 @@
-// What can be said of a picture: tools for the hand, and the same as numbers for the keyboard.
+// Hints for a picture: tools for the pointer, and the same as numbers for the keyboard.
 import {useState} from 'preact/hooks';
 import type {Box, Folder, Line, Place, Told} from './api';
 import type {Brush, Tool} from './viewer';
@@ -63,10 +63,10 @@ export const Toolbar = ({told, tool, choose, tell, brush, setBrush}: Props & {br
 
 const numbersIn = (text: string) => text.split(/[\s,;]+/).filter((word) => word !== '').map(Number);
 
-// Numbers parted by commas; told when the field is left, or Enter is pressed.
+// Numbers separated by commas; reported when the field loses focus or Enter is pressed.
 export const Numbers = ({label, value, counts, tell}:
     {label: string; value: number[]; counts: (n: number) => boolean; tell: (numbers: number[]) => void}) => {
-  // The page may be drawn anew while somebody types.
+  // The page may be redrawn while the user types.
   const [draft, setDraft] = useState<string | null>(null);
   const take = (input: HTMLInputElement) => {
     const numbers = numbersIn(input.value);

@@ -1,18 +1,18 @@
-// The picture with what was measured in it, and the tools that say more of it: zoomed by wheel, pinch and
-// keys, moved by dragging.
+// The picture with its measurement drawn in, and the tools for hints: zoomed by wheel, pinch and keys,
+// moved by dragging.
 import {useEffect, useRef, useState} from 'preact/hooks';
 import type {Box, BrushStroke, FileEntry, Line, Marks, Place, Told} from './api';
 import {api} from './api';
 
 export type Tool = 'move' | 'box' | 'ground' | 'keep' | 'drop' | 'paint' | 'exclude' | 'length';
 
-// What the brush says, and how wide it is: a part of the picture's height.
+// What the brush marks, and its width as a fraction of the picture's height.
 export interface Brush {
   says: BrushStroke['says'];
   width: number;
 }
 
-// The part of the picture that is shown.
+// The visible part of the picture.
 interface View {
   x: number;
   y: number;
@@ -26,7 +26,7 @@ interface Props {
   told: Told | null;
   tool: Tool;
   brush: Brush;
-  // A change of what is told; `ends` when the hand lets go.
+  // Called when the hints change; `ends` when the pointer is released.
   tell: (told: Told, ends: boolean) => void;
 }
 
@@ -37,7 +37,7 @@ const round = (value: number) => Math.round(value);
 const boxBetween = ([x1, y1]: Place, [x2, y2]: Place): Box =>
   [round(Math.min(x1, x2)), round(Math.min(y1, y2)), round(Math.abs(x2 - x1)), round(Math.abs(y2 - y1))];
 
-// What dragging from one place to another says.
+// The hints after dragging from one position to another.
 const toldByDrag = (tool: Tool, told: Told, from: Place, to: Place): Told => {
   const line: Line = [round(from[0]), round(from[1]), round(to[0]), round(to[1])];
   switch (tool) {
@@ -88,7 +88,7 @@ const Said = ({told, size}: {told: Told; size: number}) => (
   </g>
 );
 
-// What is painted: saved as a mask, whose grey is left out, and not yet.
+// Painted areas: those saved as a mask, whose grey does not show, and those not saved yet.
 const Painted = ({entry, told, marks}: {entry: FileEntry; told: Told; marks: Marks}) => (
   <g class="painted">
     {told.has_mask && (
@@ -100,7 +100,7 @@ const Painted = ({entry, told, marks}: {entry: FileEntry; told: Told; marks: Mar
   </g>
 );
 
-// The ends of a line, to be dragged.
+// The draggable ends of a line.
 const Ends = ({line, name, size}: {line: Line; name: string; size: number}) => (
   <>
     <circle class={`handle ${name}`} data-end="0" cx={line[0]} cy={line[1]} r={size} />
@@ -111,10 +111,10 @@ const Ends = ({line, name, size}: {line: Line; name: string; size: number}) => (
 export const Viewer = ({entry, marks, told, tool, brush, tell}: Props) => {
   const svg = useRef<SVGSVGElement>(null);
   const [view, setView] = useState<View | null>(null);
-  // Where hands are, and what they began with.
+  // Positions of the pointers, and the state when they went down.
   const hands = useRef(new Map<number, Place>());
   const drag = useRef<{from: Place; told: Told; view: View; end: number | null} | null>(null);
-  const stroke = useRef<Place[]>([]);  // that is being painted
+  const stroke = useRef<Place[]>([]);  // being painted
   const shape = marks ? `${marks.width}x${marks.height}` : '';
   useEffect(() => setView(null), [entry.file, shape]);
 

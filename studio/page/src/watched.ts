@@ -1,11 +1,11 @@
-// What is looked at again and again while the page is looked at.
+// State that is polled while the page is visible.
 import {useCallback, useEffect, useState} from 'preact/hooks';
 import type {Calibration} from './study_api';
 import {studies} from './study_api';
 
 const kLook_ms = 1000;
 
-/** Now, and then at these intervals; not while the window is hidden. */
+/** Calls `look` now and then at these intervals, but not while the window is hidden. */
 export const useLooking = (look: () => Promise<void>, every_ms: number) => {
   useEffect(() => {
     void look();
@@ -14,7 +14,7 @@ export const useLooking = (look: () => Promise<void>, every_ms: number) => {
   }, [look, every_ms]);
 };
 
-/** How far a study's calibration is, why that is not known, and what a person asks of it. */
+/** State of a study's calibration, the last error, and how to run the user's requests. */
 export const useCalibration = (study: string, refresh: () => Promise<void>) => {
   const [state, setState] = useState<Calibration | null>(null);
   const [trouble, setTrouble] = useState('');

@@ -13,7 +13,7 @@
 #include <jpeglib.h>
 #include <opencv2/imgcodecs.hpp>
 
-/// Contents of picture files, ordinary and odd ones.
+/// Contents of picture files, both ordinary and unusual.
 namespace repose::testing {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -39,7 +39,7 @@ inline void append_big_endian(Bytes& bytes, std::uint32_t number) {
     bytes.push_back(static_cast<std::uint8_t>(number >> shift));
 }
 
-/// A JPEG of one colour in inks, 255 all of it. Adobe's programs store them inverted and say so.
+/// A CMYK JPEG of one colour; 255 is full ink. Adobe's programs store inks inverted and mark it.
 inline Bytes cmyk_jpeg(int width, int height, const std::vector<std::uint8_t>& inks,
                        bool is_adobe) {
   jpeg_compress_struct jpeg{};
@@ -93,7 +93,7 @@ inline Bytes with_exif(const Bytes& jpeg, int orientation) {
   return result;
 }
 
-/// A PNG chunk with its check sum (CRC-32 as in the PNG standard, annex D).
+/// A PNG chunk with its checksum (CRC-32 as in the PNG standard, annex D).
 inline Bytes png_chunk(const std::string& name, const Bytes& content) {
   Bytes chunk;
   append_big_endian(chunk, static_cast<std::uint32_t>(content.size()));

@@ -31,7 +31,7 @@ struct Coded {
   heif_orientation orientation = heif_orientation_normal;
 };
 
-/// A picture whose left half is of one colour and whose right half of another, blue first.
+/// A picture whose left half is orange and whose right half is blue.
 Bytes halves(int width, int height, const Coded& how) {
   heif_context* context = heif_context_alloc();
   heif_encoder* encoder = nullptr;
@@ -72,7 +72,7 @@ class HeifPicture : public ::testing::Test {
     }
     return "it was read";
   }
-  /// Blue, green and red at a place; the coding may change them a little.
+  /// Blue, green and red at a place; the coding may change them slightly.
   static void expect_colour(const Picture& picture, int x, int y, const std::vector<int>& bgr) {
     constexpr int kLoss = 6;
     const auto at = std::size_t{3} * static_cast<std::size_t>(y * picture.width + x);
@@ -97,7 +97,7 @@ TEST_F(HeifPicture, TakenOnItsSideIsUpright) {
       read("heap.heic", halves(96, 64, {.orientation = heif_orientation_rotate_90_cw}));
   ASSERT_EQ(picture.width, 64);
   ASSERT_EQ(picture.height, 96);
-  expect_colour(picture, 32, 16, {40, 90, 200});  // what was left is above
+  expect_colour(picture, 32, 16, {40, 90, 200});  // the left half is now at the top
   expect_colour(picture, 32, 80, {220, 160, 30});
 }
 

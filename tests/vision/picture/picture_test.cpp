@@ -35,7 +35,7 @@ Colour colour_at(const Picture& picture, int x, int y) {
   return {picture.bgr[at], picture.bgr[at + 1], picture.bgr[at + 2]};
 }
 
-/// Loss of JPEG at full quality on even areas.
+/// Error of JPEG at full quality on uniform areas.
 constexpr int kJpegLoss = 3;
 
 void expect_colour(const Colour& actual, const Colour& expected, int tolerance) {
@@ -56,7 +56,7 @@ class PictureFile : public ::testing::Test {
   Picture read(const std::string& name, const Bytes& bytes) const {
     return read_picture(folder_.write(name, bytes));
   }
-  /// The error for a file of that content.
+  /// The error for a file with that content.
   std::string error_of(const std::string& name, const Bytes& bytes) const {
     return error_of(folder_.write(name, bytes));
   }
@@ -177,7 +177,7 @@ std::string quarter_names(const Picture& picture) {
 }
 
 TEST_F(PictureFile, ExifOrientationIsApplied) {
-  // By the table of the EXIF standard: which side the stored first row and column are seen at.
+  // By the table of the EXIF standard: at which side the stored first row and column appear.
   const std::array<std::string, 8> seen = {"RGBW", "GRWB", "WBGR", "BWRG",
                                            "RBGW", "BRWG", "WGBR", "GWRB"};
   const Bytes jpeg = coded(".jpg", quarters());
@@ -233,7 +233,7 @@ TEST_F(PictureFile, DamageIsRefusedWithoutPrinting) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-/// A little-endian number of two bytes more or less, at a place.
+/// Changes the little-endian two-byte number at a place.
 Bytes with_change(Bytes bytes, std::size_t at, int change) {
   const int number = bytes.at(at) + 256 * bytes.at(at + 1) + change;
   bytes[at] = static_cast<std::uint8_t>(number);
@@ -259,7 +259,7 @@ TEST_F(PictureFile, OfATiffsPagesTheLargestIsThePicture) {
   }
 }
 
-/// Where the value of a tag stands in a little-endian TIFF.
+/// Position of a tag's value in a little-endian TIFF.
 std::size_t tiff_value(const Bytes& bytes, int tag) {
   std::size_t entry = bytes.at(4) + 256U * bytes.at(5) + 65536U * bytes.at(6) + 2;
   while (bytes.at(entry) + 256 * bytes.at(entry + 1) != tag) entry += 12;
@@ -270,7 +270,7 @@ TEST_F(PictureFile, SizesThatTheFileDoesNotHoldAreRefused) {
   const cv::Mat samples = noise(64, 48);
   const Bytes bmp = coded(".bmp", samples), webp = coded(".webp", samples);
   Bytes tiff;
-  cv::imencode(".tif", samples, tiff, {cv::IMWRITE_TIFF_COMPRESSION, 1});  // not packed
+  cv::imencode(".tif", samples, tiff, {cv::IMWRITE_TIFF_COMPRESSION, 1});  // uncompressed
   constexpr int kTiffWidth = 256, kTiffHeight = 257;
   constexpr std::size_t kBmpWidth = 18, kBmpHeight = 22, kRiffLength = 4;
   EXPECT_EQ(read("whole.bmp", bmp).width, 64);

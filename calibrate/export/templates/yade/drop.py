@@ -1,7 +1,7 @@
-# Drop from {{HEIGHT_MM}} mm onto a wall. Grains: {{GRAINS}}, far from each other, each in its own pose.
+# Drop from {{HEIGHT_MM}} mm onto a wall. Grains: {{GRAINS}}, far apart, each with its own orientation.
 #   yade -n -x drop.py
-# A grain begins as it touches, as fast as the fall made it. The reading is the top of the first
-# flight less the lowest height before, mean of the grains.
+# Each grain starts in contact, with the speed gained in the fall. The reading is the top of the first
+# flight minus the lowest height before it, averaged over the grains.
 exec(open('grain.py').read())
 STIFFNESS = {{STIFFNESS}}
 SPEED = {{SPEED}}  # m/s

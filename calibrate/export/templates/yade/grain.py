@@ -1,4 +1,4 @@
-# {{GRAIN_NAME}} on {{WALL_NAME}}: clump, contact law, engines. The other scripts begin with it.
+# {{GRAIN_NAME}} on {{WALL_NAME}}: clump, contact law, engines. The other scripts begin by running it.
 # Written by {{PROGRAM}} from the study {{STUDY}} ({{HASH}}).
 {{#FITTED}}
 #   {{NAME}} {{VALUE}}, {{INTERVAL}}: {{VERDICT}}
@@ -7,7 +7,7 @@ from math import atan, cbrt, cos, pi, radians, sin, sqrt
 from yade import Body, Matrix3, O, Quaternion, Vector3, utils
 from yade.wrapper import *
 #
-# Spheres of one grain: centre and radius, m, seen from the centre of mass along the principal axes.
+# Spheres of one grain: centre and radius, m, relative to the centre of mass, along the principal axes.
 SPHERES = [
 {{#BALL}}
     (({{X}}, {{Y}}, {{Z}}), {{R}}),
@@ -18,16 +18,16 @@ INERTIA = ({{IXX}}, {{IYY}}, {{IZZ}})
 REACH = {{REACH}}  # m
 GRAVITY = {{GRAVITY}}
 #
-# Contact with walls and between grains: damping shares betan, betas of the critical; friction; eta,
-# of F (R1 + R2) / 2; krot, N m/rad for the stiffness factor 1.
+# Contact with walls and between grains: damping ratios betan, betas (fractions of critical); friction;
+# eta, as a fraction of F (R1 + R2) / 2; krot, N m/rad for the stiffness factor 1.
 WALL = dict(betan={{WALL_BETAN}}, betas={{WALL_BETAS}}, friction={{WALL_SLIDING}}, eta={{WALL_ETA}}, krot={{WALL_KROT}})
 GRAINS = dict(betan={{GRAIN_BETAN}}, betas={{GRAIN_BETAS}}, friction={{GRAIN_SLIDING}}, eta={{GRAIN_ETA}}, krot={{GRAIN_KROT}})
 {{#TUBE}}
-# With the tube, of {{TUBE_NAME}}.
+# Contact with the tube, made of {{TUBE_NAME}}.
 TUBE = dict(betan={{TUBE_BETAN}}, betas={{TUBE_BETAS}}, friction={{TUBE_SLIDING}}, eta={{TUBE_ETA}}, krot={{TUBE_KROT}})
 {{/TUBE}}
-# Moduli that give grain and wall the stiffness of their contact, although YADE takes the wall for a
-# sphere of the same size: see README.txt.
+# Moduli that give the grain-wall contact its stiffness, although YADE treats the wall as a sphere of
+# the same size: see README.txt.
 PAIR = dict(young={{PAIR_YOUNG}}, poisson={{PAIR_POISSON}})
 GRAIN = dict(young={{GRAIN_YOUNG}}, poisson={{GRAIN_POISSON}})
 DENSITY = {{DENSITY}}
@@ -38,7 +38,7 @@ def add_materials(stiffness, moduli):
 def matched(value):
     return MatchMaker(matches=((0, 1, value(WALL)), (0, 0, value(GRAINS)){{#TUBE}}, (0, 2, value(TUBE)){{/TUBE}}))
 def set_engines(stiffness, rolling, gravity=(0, 0, -GRAVITY), watch=()):
-    """rolling: WALL or GRAINS; YADE has one value of it for all pairs."""
+    """rolling: WALL or GRAINS; YADE has only one value for all pairs."""
     contact = Ip2_FrictMat_FrictMat_MindlinPhys(
         betan=matched(lambda pair: pair['betan']),
         betas=matched(lambda pair: pair['betas']),
@@ -61,7 +61,7 @@ def add_grain(at, orientation, spheres=SPHERES, mass=MASS, inertia=INERTIA, velo
         body.state.mass = mass
         body.state.inertia = inertia
     else:
-        # What the spheres would weigh is not asked for: a box that touches nothing carries all.
+        # The spheres contribute no mass: a box that touches nothing carries all the mass.
         for member in members:
             member.mat = FrictMat(density=1e-12 * DENSITY)
         carrier = utils.box(at, (1e-6, 1e-6, 1e-6), orientation=orientation, material='grain')
@@ -71,7 +71,7 @@ def add_grain(at, orientation, spheres=SPHERES, mass=MASS, inertia=INERTIA, velo
         number, parts = O.bodies.appendClumped(members + [carrier], discretization=0)
         for part in parts[:-1]:
             O.bodies[part].mat = O.materials['grain']
-            O.bodies[part].state.mass = mass  # what its contacts are damped by
+            O.bodies[part].state.mass = mass  # determines the damping of its contacts
         body = O.bodies[number]
     body.state.vel = velocity
     return body.id

@@ -1,7 +1,7 @@
-# {{GRAINS}} grains in a tube that is lifted off a plate at {{LIFT_MM_S}} mm/s: the heap that stays.
+# {{GRAINS}} grains in a tube that is lifted off a plate at {{LIFT_MM_S}} mm/s: the heap that remains.
 #   yade -n -x heap.py
-# Another heap: yade -n -x heap.py SEED.
-# heap.txt holds the spheres at the end (m): README.txt says how to measure them.
+# For a different heap: yade -n -x heap.py SEED.
+# heap.txt contains the final spheres (m): README.txt explains how to measure them.
 exec(open('grain.py').read())
 import random, sys
 from yade import geom
@@ -12,7 +12,7 @@ half = .5 * {{PLATE}}
 corners = [(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0)]
 O.bodies.append(utils.facet([corners[0], corners[1], corners[2]], material='wall'))
 O.bodies.append(utils.facet([corners[0], corners[2], corners[3]], material='wall'))
-# Tall enough to hold all grains while they fall in; what is above the rim is gone before the lift.
+# Tall enough to hold all grains while they fall in; the part above the rim is removed before the lift.
 tube = O.bodies.append(geom.facetCylinder((0, 0, .5 * {{TUBE_HEIGHT}}), {{TUBE_RADIUS}}, {{TUBE_HEIGHT}}, segmentsNumber=48, wallMask=4, material='{{TUBE_MATERIAL}}'))
 guide = O.bodies.append(geom.facetCylinder((0, 0, {{TUBE_HEIGHT}} + .5 * {{COLUMN}}), {{TUBE_RADIUS}}, {{COLUMN}}, segmentsNumber=48, wallMask=4, material='{{TUBE_MATERIAL}}'))
 numbers = []

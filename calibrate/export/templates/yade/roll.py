@@ -1,6 +1,6 @@
-# A grain let go {{RELEASE_MM}} mm up an incline of {{INCLINE}} degrees, which ends on a flat plate.
+# A grain released {{RELEASE_MM}} mm up an incline of {{INCLINE}} degrees, which ends on a flat plate.
 #   yade -n -x roll.py
-# The reading is how far from the foot (x = 0) its centre of mass lies when it is at rest.
+# The reading is the distance of its centre of mass from the foot (x = 0) when it has come to rest.
 exec(open('grain.py').read())
 STIFFNESS = {{STIFFNESS}}
 add_materials(STIFFNESS, PAIR)
@@ -10,7 +10,7 @@ number = add_grain(({{X}}, {{Y}}, {{Z}}), Quaternion({{QW}}, {{QX}}, {{QY}}, {{Q
 state = O.bodies[number].state
 place = state.pos[0]
 def level():
-    """YADE takes a facet for a sphere twice as large, a wall for one as large: make them alike."""
+    """YADE treats a facet as a sphere twice as large, a wall as one of equal size: makes them equal."""
     for contact in O.interactions:
         if contact.isReal and incline in (contact.id1, contact.id2):
             limit = WALL['eta'] * contact.geom.refR2

@@ -1,13 +1,13 @@
-# {{BONDED}} bonded grains on a plate that tilts at {{RATE}} degrees a second, until they have slipped .5 mm.
+# {{BONDED}} bonded grains on a plate that tilts at {{RATE}} degrees per second, until they have slipped 0.5 mm.
 #   yade -n -x tilt.py
-# Gravity turns instead of the plate, which comes to the same. It begins at {{BEGIN}} degrees, 3 short
-# of sliding. The reading is the angle at that slip; the onset that repose reports lies a little
-# before it.
+# Gravity turns instead of the plate, which is equivalent, starting at {{BEGIN}} degrees, at most 3
+# degrees before sliding. The reading is the angle at that slip; the onset that repose reports is
+# slightly smaller.
 exec(open('grain.py').read())
 STIFFNESS = {{STIFFNESS}}
-RATE = {{RATE}}    # degrees a second
+RATE = {{RATE}}    # degrees per second
 BEGIN = {{BEGIN}}  # degrees
-BODY = [  # the bonded grains as one: centre and radius, m
+BODY = [  # the bonded grains as one body: centre and radius, m
 {{#BALL}}
     (({{X}}, {{Y}}, {{Z}}), {{R}}),
 {{/BALL}}
@@ -22,7 +22,7 @@ first = None
 def turn():
     global angle, first
     if O.time < .05:
-        return  # to settle
+        return  # the grains settle
     if first is None:
         first = (O.time, state.pos[0])
     angle = BEGIN + RATE * (O.time - first[0])
