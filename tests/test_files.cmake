@@ -20,7 +20,7 @@ endfunction()
 # they also have the label `statistics`, and are left out when everything runs ten times slower.
 set(statistics "^(vision/(ComparePictures|Conditions/.*|FilmAngleAccuracy|HeapPicture|LensFitAccuracy|Likeness|\
 OtherPictures|Scenes/.*)|calibrate/(DrawDownFront|IntervalLimit|JointFit(OfTheBench)?|Narrowing|PositionAngle(/Cone)?|Propose|\
-SimulatorVersion|StifferCoefficients|MovedCoefficients)|dem/(DrawDowns|FillAccuracy|FilledTubes|HeapOfManySizes|LongTimestep|\
+SimulatorVersion|StifferCoefficients|StudiesOfCoarseRuns|MovedCoefficients)|dem/(DrawDowns|FillAccuracy|FilledTubes|HeapOfManySizes|LongTimestep|\
 NeighbourList|RollOnGrains|RollTimestep|RoughDeadGrains|TiltOnGrains)|physics/Verify/Physics)$")
 # Suites that start, kill and restart whole programs, which other suites run as well: they have the
 # label `processes`, and are left out then, too.

@@ -327,7 +327,7 @@ std::string coarse_text(const JointResult& joint) {
         coarse.shift, base::kNormal95 * coarse.uncertainty, unit.empty() ? "" : " ", unit,
         coarse.scatter);
     if (surrogate.full_runs() == 0) {
-      text += ", which is assumed: none of the study's own has been simulated yet";
+      text += ", which is assumed: none of the study's own has given a reading";
     }
     if (coarse.failed_runs > 0) {
       text += fmt::format("; {} more of these gave no reading", coarse.failed_runs);

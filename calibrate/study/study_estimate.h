@@ -77,6 +77,7 @@ struct WorkLook {
 
 /// Estimated total duration, s, from the pace in the second half of the time observed: the few
 /// grains at the beginning run faster than the many later on. std::nullopt: nothing was done yet.
+/// `all_clump_steps`: as many steps of few grains as take as long, see dem::many_grains_factor.
 std::optional<double> foreseen_s(const std::vector<WorkLook>& looks, double all_clump_steps);
 
 /// Makes a run, for `longest_s` at most, and saves nothing. Returns the estimated total duration on

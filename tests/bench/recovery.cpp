@@ -39,16 +39,13 @@ namespace {
 
 namespace fake = calibrate::fake;
 
-/// As in a study: rounds, then checks with full runs if the rounds used coarse ones.
+/// As in a study: rounds, then checks with full runs.
 calibrate::JointFit checked_fit(const calibrate::Problem& problem) {
   fake::Runs runs = fake::study(problem);
   calibrate::JointFit fit = fit_jointly(problem, runs);
   calibrate::Budget budget = calibrate::budget_named("quick");
   budget.settings = problem.settings;
   budget = calibrate::with_affordable_checks(budget, problem);
-  if (budget.verification_repeats == calibrate::budget_named("quick").verification_repeats) {
-    return fit;
-  }
   for (int set = 0; set < budget.check_rounds; ++set) {
     const bool is_last = set + 1 == budget.check_rounds;
     const int repeats = is_last ? budget.verification_repeats : budget.round_repeats;
@@ -70,11 +67,11 @@ void recover(const SimulatedRecovery& plan) {
     const std::vector<double> truth = made_up_material(fake::parameters(), random);
     calibrate::Problem problem = fake::problem(truth, plan.seed + static_cast<unsigned>(m));
     problem.settings.budget_s = plan.budget_s;
-    for (calibrate::Experiment& experiment : problem.experiments) {
-      if (experiment.name == "heap") experiment.run_s = plan.heap_s.value_or(experiment.run_s);
-    }
+    if (plan.heap_s) fake::experiment_of(problem, "heap").run_s = *plan.heap_s;
     if (plan.coarse_size) fake::coarsen(problem, *plan.coarse_size);
-    tally.add(checked_fit(problem), truth, plan.verbose);
+    // Without coarse runs checks would say little that the rounds do not.
+    tally.add(plan.coarse_size ? checked_fit(problem) : fit_jointly(problem, fake::study(problem)),
+              truth, plan.verbose);
   }
   tally.print();
 }

@@ -152,10 +152,12 @@ Problem problem(const std::vector<double>& truth, std::uint64_t seed) {
   return problem;
 }
 
+Experiment& experiment_of(Problem& problem, const std::string& name) {
+  return *std::ranges::find(problem.experiments, name, &Experiment::name);
+}
+
 void coarsen(Problem& problem, double size) {
-  for (Experiment& experiment : problem.experiments) {
-    if (experiment.name == "heap") experiment.coarse = AssumedInputs{.size = size};
-  }
+  experiment_of(problem, "heap").coarse = AssumedInputs{.size = size};
 }
 
 Runs first_runs(const Problem& problem, bool jams) {

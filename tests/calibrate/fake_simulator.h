@@ -49,6 +49,9 @@ std::vector<Observable> measured(const std::vector<double>& truth, std::uint64_t
 /// All of the above as one problem.
 Problem problem(const std::vector<double>& truth = kTruth, std::uint64_t seed = 1);
 
+/// An experiment of a problem, to be changed.
+Experiment& experiment_of(Problem& problem, const std::string& name);
+
 /// Gives the problem's heap coarse runs, with grains `size` times as large.
 void coarsen(Problem& problem, double size);
 

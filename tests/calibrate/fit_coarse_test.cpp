@@ -185,13 +185,12 @@ fake::Runs first_and_checked(const Problem& problem, int full) {
   return runs;
 }
 
-TEST(CoarseRuns, FullOnesFollowWhereTheyAreWorthTheirTime) {
+TEST(StudiesOfCoarseRuns, HaveFullOnesWhereTheyAreWorthTheirTime) {
   Problem problem = coarse_problem();
   std::vector<Job> jobs;
   for (const auto& run : fake::study(problem)) jobs.push_back(run.job);
   EXPECT_THAT(heap_jobs(jobs, false), Not(IsEmpty()));
-  std::ranges::find(problem.experiments, "heap", &Experiment::name)->run_s =
-      2 * problem.settings.budget_s;
+  fake::experiment_of(problem, "heap").run_s = 2 * problem.settings.budget_s;
   jobs.clear();
   for (const auto& run : fake::study(problem)) jobs.push_back(run.job);
   EXPECT_THAT(heap_jobs(jobs, false), IsEmpty());
@@ -219,7 +218,7 @@ double heap_seconds(const Problem& problem, const fake::Runs& runs) {
   return seconds;
 }
 
-TEST(CoarseRuns, AStudyFindsTheSameWithFewerSeconds) {
+TEST(StudiesOfCoarseRuns, FindTheSameWithFewerSeconds) {
   Problem cheap = coarse_problem();
   Problem dear = fake::problem();
   cheap.settings.budget_s = 400;

@@ -19,11 +19,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
+using fake::experiment_of;
 using fake::kTruth;
-
-Experiment& experiment_of(Problem& problem, const std::string& name) {
-  return *std::ranges::find(problem.experiments, name, &Experiment::name);
-}
 
 /// Everything measured; in one experiment the real grains are stiffer than those of the study.
 Problem softening(const std::string& experiment, double real_stiffness = 1000,
