@@ -1,9 +1,11 @@
 #include "studio/server.h"
 
+#include <atomic>
 #include <exception>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -66,6 +68,9 @@ struct Server::Parts {
   httplib::Server http;
   std::unique_ptr<Access> access;
   std::string address;
+  std::atomic<bool> has_started = false;
+  std::atomic<bool> has_ended = false;
+  std::atomic<bool> is_to_stop = false;
 
   void guard();
   void serve_page();
@@ -260,8 +265,18 @@ Server::~Server() = default;
 
 const std::string& Server::address() const { return parts_->address; }
 
-void Server::run() { parts_->http.listen_after_bind(); }
+void Server::run() {
+  parts_->has_started = true;
+  if (!parts_->is_to_stop) parts_->http.listen_after_bind();
+  parts_->has_ended = true;
+}
 
-void Server::stop() { parts_->http.stop(); }
+void Server::stop() {
+  parts_->is_to_stop = true;
+  if (!parts_->has_started) return;
+  // The library ignores a stop before it listens, which run() may be about to do.
+  while (!parts_->http.is_running() && !parts_->has_ended) std::this_thread::yield();
+  parts_->http.stop();
+}
 
 }  // namespace repose::studio

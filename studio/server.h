@@ -27,7 +27,7 @@ class Server {
 
   /// "http://127.0.0.1:PORT/?token=..."
   const std::string& address() const;
-  /// Serves until stop(), which any thread may call.
+  /// Serves until stop(), which any thread may call at any time, before run() too.
   void run();
   void stop();
 

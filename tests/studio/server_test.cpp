@@ -429,5 +429,20 @@ TEST(Studio, SaysWhatIsWrongBeforeItStarts) {
   EXPECT_THROW(Server({.folder = folder.path(), .port = port}), base::InputError);
 }
 
+/// As by Ctrl-C at once after the address is printed.
+TEST(Studio, StopsAlsoWhereItDoesNotListenYet) {
+  const testing::TemporaryFolder folder;
+  constexpr int kTries = 30;
+  for (int k = 0; k < kTries; ++k) {
+    Server server({.folder = folder.path()});
+    std::thread serving([&] { server.run(); });
+    server.stop();
+    serving.join();
+  }
+  Server never({.folder = folder.path()});
+  never.stop();
+  never.run();
+}
+
 }  // namespace
 }  // namespace repose::studio
