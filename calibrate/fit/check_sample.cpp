@@ -23,10 +23,11 @@ double CheckSample::sd() const {
 
 CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
                          const Observable& observable, const std::vector<Run>& runs,
-                         const AssumedInputs& inputs) {
+                         const std::optional<AssumedInputs>& asked) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
+  const AssumedInputs inputs = asked.value_or(experiment.full);
   const Job at = job_at(problem, experiment, to_unit(problem, values), 0);
-  CheckSample sample{.readings = {}, .is_coarse = inputs.size != 1};
+  CheckSample sample{.readings = {}, .is_coarse = inputs.size != experiment.full.size};
   for (const Run& run : runs) {
     if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
     if (run.job.inputs != inputs) continue;

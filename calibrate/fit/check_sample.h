@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,10 @@ struct CheckSample {
   double sd() const;  ///< of single readings; NaN for fewer than two
 };
 
-/// Sample of the runs with these inputs.
+/// Sample of the runs with these inputs; std::nullopt: full runs.
 CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
                          const Observable& observable, const std::vector<Run>& runs,
-                         const AssumedInputs& inputs = {});
+                         const std::optional<AssumedInputs>& inputs = {});
 
 /// How much a single run scatters, and how many degrees of freedom that has.
 struct RunScatter {

@@ -227,6 +227,7 @@ SurrogateQuality quality_of(const Problem& problem, const std::vector<Run>& runs
   quality.leave_one_out_sigma = surrogate.leave_one_out_sigma();
   quality.leave_one_out_error = surrogate.leave_one_out_error();
   quality.inflation = surrogate.inflation();
+  quality.full_size = experiment.full.size;
   if (const auto shift = surrogate.coarse_shift(best)) {
     const TrainingSet& training_set = surrogate.training_set();
     const std::size_t coarse = training_set.readings.size() - full_readings(training_set);

@@ -116,6 +116,7 @@ struct SurrogateQuality {
   double leave_one_out_sigma = 0;     ///< rms of standardised leave-one-out errors; 1 is right
   double leave_one_out_error = 0;     ///< rms of leave-one-out errors, seed noise included, unit
   double inflation = 1;               ///< factor by which its uncertainty was enlarged
+  double full_size = 1;               ///< of the grains of full runs, as a multiple of the study's
   std::optional<CoarseQuality> coarse = {};  ///< std::nullopt: all runs are full
 
   int full_runs() const { return runs - (coarse ? coarse->runs : 0); }

@@ -64,14 +64,16 @@ Job job_at(const Problem& problem, const Experiment& experiment, const Point& po
   for (const std::size_t i : experiment.parameters) canonical[i] = point[i];
   return {.experiment = experiment.name,
           .values = to_values(problem, canonical),
-          .seed = experiment.is_stochastic ? seed : problem.settings.seed};
+          .seed = experiment.is_stochastic ? seed : problem.settings.seed,
+          .inputs = experiment.full};
 }
 
 double run_s_of(const Experiment& experiment, const AssumedInputs& inputs) {
   constexpr double kStepsByStiffness = .4;
-  const double many = inputs.size == 1 ? 1 : experiment.many_grains;
+  const double size = inputs.size / experiment.full.size;
+  const double many = size == 1 ? 1 : experiment.many_grains;
   return experiment.run_s * inputs.step.work * std::pow(inputs.stiffness, kStepsByStiffness) *
-         (1 + experiment.spheres_share * (inputs.spheres - 1)) / (std::pow(inputs.size, 4) * many);
+         (1 + experiment.spheres_share * (inputs.spheres - 1)) / (std::pow(size, 4) * many);
 }
 
 double usual_run_s(const Experiment& experiment) {

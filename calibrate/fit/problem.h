@@ -45,7 +45,7 @@ struct InputStep {
 };
 
 /// What a study assumes besides its coefficients, as multiples of the stated values: all 1, and no
-/// step, in full runs.
+/// step, where nothing is changed.
 struct AssumedInputs {
   double stiffness = 1;  ///< of grains and walls
   double spheres = 1;    ///< of the clump that represents a grain
@@ -59,7 +59,8 @@ struct AssumedInputs {
 struct Experiment {
   std::string name;                     ///< "drop", "tilt", "roll", "heap"
   std::vector<std::size_t> parameters;  ///< indices in Problem::parameters of those with an effect
-  /// Approximate duration of a run, s. Rounds are planned with it: the same throughout a study.
+  /// Approximate duration of a full run, s. Rounds are planned with it: the same throughout a
+  /// study.
   double run_s = 1;
   bool is_stochastic = true;  ///< false: the seed changes nothing, one run is enough
   /// Readings that a bench could give too. The advice chooses from those not measured.
@@ -75,7 +76,8 @@ struct Experiment {
   double real_stiffness = 1;
   /// Fraction of run_s that scales with the number of spheres.
   double spheres_share = 0;
-  /// Factor in run_s because each step of each of many grains takes longer; coarse runs have few.
+  /// Factor in run_s because each step of each of many grains takes longer than of as few as coarse
+  /// runs have.
   double many_grains = 1;
   /// Of a bench's "value": standard uncertainty common to all readings, as a fraction of it.
   /// Observables have it in their systematic_sd.
@@ -86,12 +88,15 @@ struct Experiment {
   double usual_scatter = .05;
   /// Possible model error as a fraction of any bench's reading: Observable::model_sd.
   double model_fraction = 0;
+  /// Full runs, which the fit predicts and checks: larger grains if runs of the study's own would
+  /// take too long, with what that may change in model_fraction.
+  AssumedInputs full = {};
   /// Coarse runs: cheaper, with an offset learned from full runs. std::nullopt: it has none.
   std::optional<AssumedInputs> coarse = {};
 
   bool is_coarse(const AssumedInputs& inputs) const { return coarse && inputs == *coarse; }
   /// Of most of its runs: coarse ones if it has any.
-  AssumedInputs usual_inputs() const { return coarse.value_or(AssumedInputs{}); }
+  AssumedInputs usual_inputs() const { return coarse.value_or(full); }
 };
 
 /// A part of the uncertainty of a measured mean that is common to all its readings.

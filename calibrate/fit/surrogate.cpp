@@ -135,7 +135,7 @@ double sd_within(const Experiment& experiment, const std::string& reading,
   double squares = 0;
   int count = 0;
   for (const Run& run : runs) {
-    if (run.job.experiment != experiment.name || run.job.inputs != AssumedInputs{}) continue;
+    if (run.job.experiment != experiment.name || run.job.inputs != experiment.full) continue;
     const std::optional<double> sd = reading_of(run, experiment.scatter_within);
     if (!sd) continue;
     squares += *sd * *sd;
@@ -156,7 +156,7 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
     const Run& run = runs[k];
     const bool is_coarse = experiment.is_coarse(run.job.inputs);
     if (run.job.experiment != experiment.name) continue;
-    if (!is_coarse && run.job.inputs != AssumedInputs{}) continue;
+    if (!is_coarse && run.job.inputs != experiment.full) continue;
     const std::optional<double> value = reading_of(run, reading);
     if (!value) continue;
     Point place = seen_by(experiment, to_unit(problem, run.job.values));
@@ -189,7 +189,8 @@ TrainingSet training_set_of(const Problem& problem, const Experiment& experiment
 int readings_among(const Experiment& experiment, const std::string& reading,
                    const std::vector<Run>& runs) {
   return static_cast<int>(std::ranges::count_if(runs, [&](const Run& run) {
-    return run.job.experiment == experiment.name && reading_of(run, reading);
+    const bool is_used = run.job.inputs == experiment.full || experiment.is_coarse(run.job.inputs);
+    return run.job.experiment == experiment.name && is_used && reading_of(run, reading);
   }));
 }
 
@@ -208,7 +209,7 @@ Attempts attempts_of(const Problem& problem, const Experiment& experiment,
   for (const Run& run : runs) {
     if (run.job.experiment != experiment.name) continue;
     // Larger grains may form no heap where the study's do, but not the other way round.
-    if (run.job.inputs != AssumedInputs{} && !run.failure.empty()) continue;
+    if (run.job.inputs != experiment.full && !run.failure.empty()) continue;
     attempts.places.push_back(seen_by(experiment, to_unit(problem, run.job.values)));
     attempts.failed.push_back(!run.failure.empty());
   }

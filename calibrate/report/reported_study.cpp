@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -24,12 +25,17 @@ namespace fs = std::filesystem;
 
 std::vector<SavedRun> runs_of(const JointResult& joint) {
   std::vector<SavedRun> runs;
+  std::set<double> coarse_sizes;
+  for (const SurrogateQuality& surrogate : joint.surrogates) {
+    if (surrogate.coarse) coarse_sizes.insert(surrogate.coarse->size);
+  }
   for (const Run& run : joint.runs) {
     SavedRun& saved = runs.emplace_back();
     saved.experiment = run.job.experiment;
     saved.readings = run.readings;
     saved.failure = run.failure;
-    saved.is_coarse = run.job.inputs.size != 1;
+    saved.grain_size = run.job.inputs.size;
+    saved.is_coarse = coarse_sizes.contains(saved.grain_size);
     for (std::size_t k = 0; k < run.job.values.size(); ++k) {
       saved.values[joint.parameters[k].name] = run.job.values[k];
     }
@@ -67,7 +73,8 @@ std::optional<SavedRun> saved_run_in(const fs::path& file) {
                  .values = {},
                  .readings = readings_of(result),
                  .failure = result.failure,
-                 .is_coarse = simulated.contains("grain_size")};
+                 .grain_size = simulated.value("grain_size", 1.)};
+    run.is_coarse = run.grain_size != 1;  // unless the study says otherwise
     for (const auto& [pair, contact] : simulated.items()) {
       if (!pair.starts_with("particle_")) continue;
       for (const auto& [name, value] : contact.items()) {
@@ -174,27 +181,30 @@ dem::StudyHeading table_heading_in(const fs::path& folder) {
   }
 }
 
-/// The measurements that a study without a result will be fitted to, if they can be read.
-std::vector<MeasuredNumber> measured_of(const StudyRecord& record) {
-  std::vector<MeasuredNumber> numbers;
+/// What a study without a result will be fitted to, if it can be read.
+void take_problem(const StudyRecord& record, ReportedStudy& study) {
+  Problem problem;
   try {
-    for (const Observable& observable :
-         problem_of(record.study, record.grain, record.budget).problem.observables) {
-      numbers.push_back({.name = observable.name,
-                         .experiment = observable.experiment,
-                         .reading = observable.reading,
-                         .unit = observable.unit,
-                         .measured = observable.mean,
-                         .uncertainty = std::nullopt});
-      if (observable.sd) {
-        numbers.back().uncertainty = with_systematic(observable, standard_uncertainty(observable));
-      }
-    }
+    problem = problem_of(record.study, record.grain, record.budget).problem;
   } catch (const base::InputError&) {
-    // A page about the runs is useful without it.
-    numbers.clear();
+    return;  // a page about the runs is useful without it
   }
-  return numbers;
+  for (const Observable& observable : problem.observables) {
+    study.measured.push_back({.name = observable.name,
+                              .experiment = observable.experiment,
+                              .reading = observable.reading,
+                              .unit = observable.unit,
+                              .measured = observable.mean,
+                              .uncertainty = std::nullopt});
+    if (!observable.sd) continue;
+    study.measured.back().uncertainty =
+        with_systematic(observable, standard_uncertainty(observable));
+  }
+  for (SavedRun& run : study.runs) {
+    const auto of_run = std::ranges::find(problem.experiments, run.experiment, &Experiment::name);
+    run.is_coarse =
+        of_run != problem.experiments.end() && of_run->is_coarse({.size = run.grain_size});
+  }
 }
 
 /// "contact.PAIR.KEY" and value of each fitted coefficient, as last checked: the heap simulated for
@@ -281,7 +291,7 @@ ReportedStudy read_reported_study(const fs::path& folder) {
     if (notes) study.study = notes->study;
     study.runs = runs_in(folder / "runs");
     if (study.runs.empty()) take_made_runs(folder / "runs", study);
-    if (record) study.measured = measured_of(*record);
+    if (record) take_problem(*record, study);
     study.pictures = pictures;
   }
   study.folder = folder;

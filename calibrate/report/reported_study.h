@@ -17,7 +17,8 @@ struct SavedRun {
   std::map<std::string, double> values;  ///< of the coefficients, by full name
   std::map<std::string, double> readings;
   std::string failure;     ///< empty: it has readings
-  bool is_coarse = false;  ///< with larger grains than the study's
+  double grain_size = 1;   ///< as a multiple of the study's
+  bool is_coarse = false;  ///< with larger grains than full runs
 };
 
 /// A number measured on the bench.

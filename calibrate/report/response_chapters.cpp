@@ -12,7 +12,7 @@ namespace repose::calibrate::report {
 namespace {
 
 constexpr const char* kRuns = "simulated runs";
-constexpr const char* kCoarseRuns = "runs of larger grains";
+constexpr const char* kCoarseRuns = "coarse runs (larger grains)";
 constexpr const char* kMeasured = "measured, 95 %";
 constexpr const char* kBest = "best fit";
 

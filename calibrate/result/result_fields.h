@@ -286,6 +286,7 @@ void fields(Io& io, Held<Io, SurrogateQuality>& surrogate) {
   io("leave_one_out_error", surrogate.leave_one_out_error);
   io("leave_one_out_sigma", surrogate.leave_one_out_sigma);
   io("inflation", surrogate.inflation);
+  if (io.has("full_size", surrogate.full_size != 1)) io("full_size", surrogate.full_size);
   if (io.has("coarse", surrogate.coarse.has_value())) io("coarse", surrogate.coarse);
 }
 

@@ -156,7 +156,9 @@ std::vector<ObservableSurface> regressions_of(const Problem& problem,
                                               const std::vector<Run>& runs) {
   std::vector<ObservableSurface> regressions;
   std::vector<Run> full_runs = runs;  // a polynomial does not model the shift of the others
-  std::erase_if(full_runs, [](const Run& run) { return run.job.inputs != AssumedInputs{}; });
+  std::erase_if(full_runs, [&](const Run& run) {
+    return run.job.inputs != experiment_named(problem, run.job.experiment).full;
+  });
   for (const Observable& observable : problem.observables) {
     ObservableSurface& surface = regressions.emplace_back();
     surface.observable = observable.name;

@@ -317,17 +317,28 @@ std::string coarse_text(const JointResult& joint) {
   std::string text;
   for (std::size_t k = 0; k < joint.surrogates.size(); ++k) {
     const SurrogateQuality& surrogate = joint.surrogates[k];
+    const bool is_own = surrogate.full_size == 1;
+    const std::string full =
+        is_own ? "the study's" : fmt::format("those {:.3g} times as large", surrogate.full_size);
+    if (!is_own) {
+      text += fmt::format(
+          "{}no run of {} had the study's own grains, which would take longer than the budget "
+          "allows: full runs and checks were of grains {:.3g} times as large, and what that may "
+          "change is part of the model's error",
+          text.empty() ? "" : "; ", surrogate.observable, surrogate.full_size);
+    }
     if (!surrogate.coarse) continue;
     const CoarseQuality& coarse = *surrogate.coarse;
     const std::string& unit = joint.observables[k].unit;
     text += fmt::format(
         "{}{} of {} runs of {} were of grains {:.3g} times as large, which are taken to read "
-        "{:+.2g} ± {:.2g}{}{} beside the study's (95 %) and scatter {:.2g} times as much",
+        "{:+.2g} ± {:.2g}{}{} beside {} (95 %) and scatter {:.2g} times as much",
         text.empty() ? "" : "; ", coarse.runs, surrogate.runs, surrogate.observable, coarse.size,
-        coarse.shift, base::kNormal95 * coarse.uncertainty, unit.empty() ? "" : " ", unit,
+        coarse.shift, base::kNormal95 * coarse.uncertainty, unit.empty() ? "" : " ", unit, full,
         coarse.scatter);
     if (surrogate.full_runs() == 0) {
-      text += ", which is assumed: none of the study's own has given a reading";
+      text += fmt::format(", which is assumed: none of {} has given a reading",
+                          is_own ? "the study's own" : "these");
     }
     if (coarse.failed_runs > 0) {
       text += fmt::format("; {} more of these gave no reading", coarse.failed_runs);

@@ -76,7 +76,7 @@ Pace timed_pace(const PreparedStudy& study, double longest_s,
   for (const ExperimentEstimate& run : runs) {
     job.experiment = run.experiment;
     const Experiment& experiment = experiment_named(problem, run.experiment);
-    double slowest = pace_of(experiment, AssumedInputs{});
+    double slowest = pace_of(experiment, experiment.full);
     // The first seconds of a full run have few grains yet, while a coarse run reaches its end.
     if (experiment.coarse) slowest = std::max(slowest, pace_of(experiment, *experiment.coarse));
     pace[run.experiment] = slowest;

@@ -10,6 +10,8 @@
 
 #include "base/input_error.h"
 #include "calibrate/fit/budget.h"
+#include "calibrate/fit/points.h"
+#include "calibrate/study/study_budget.h"
 
 namespace repose::calibrate {
 namespace {
@@ -34,12 +36,8 @@ struct Checks {
 constexpr std::array<Checks, 5> kChecks{
     {{3, 6, 24, 2}, {3, 5, 16, 1}, {3, 4, 10, 1}, {2, 3, 6, 0}, {2, 2, 4, 0}}};
 
-Budget budget_with(double minutes, const Checks& checks) {
-  constexpr double kLong_minutes = 60;
-  const std::string rounds = minutes < kLong_minutes ? "quick" : "standard";
-  Budget budget = budget_named(rounds);
-  budget.name = name_of_minutes(minutes);
-  budget.minutes = minutes;
+Budget budget_with(double minutes, int cores, const Checks& checks) {
+  Budget budget = budget_of(minutes, cores);
   budget.check_rounds = checks.rounds;
   budget.round_repeats = checks.round_repeats;
   budget.verification_repeats = checks.verification_repeats;
@@ -51,6 +49,7 @@ Budget budget_with(double minutes, const Checks& checks) {
 struct Work {
   double all_s = 0;
   double checks_s = 0;
+  double growing_s = 0;  ///< of these, those of larger grains: as long as the time given allows
 };
 
 Work work_of(Problem problem, const Budget& budget, const Pace& pace) {
@@ -59,10 +58,13 @@ Work work_of(Problem problem, const Budget& budget, const Pace& pace) {
   problem.settings.max_rounds = budget.settings.max_rounds;
   Work work;
   for (const ExperimentEstimate& estimate : estimate_of(problem, budget)) {
+    const bool is_larger = experiment_named(problem, estimate.experiment).full.size != 1;
     for (const auto& [phase, of_phase] : estimate.phases) {
       const double seconds = pace.at(estimate.experiment) * of_phase.seconds;
       work.all_s += seconds;
-      if (phase == Phase::checks || phase == Phase::equal_sets) work.checks_s += seconds;
+      if (phase != Phase::checks && phase != Phase::equal_sets) continue;
+      work.checks_s += seconds;
+      if (is_larger) work.growing_s += seconds;
     }
   }
   return work;
@@ -82,6 +84,17 @@ void grow(const Problem& problem, const Pace& pace, double core_s, Budget& budge
   budget.settings.budget_s = std::max(std::exp(low), least_budget_s(problem));
 }
 
+/// Of the experiments that may have larger grains; 1 if there are none.
+double slowest_of(const Pace& pace, const Problem& problem) {
+  double slowest = 0;
+  for (const Experiment& experiment : problem.experiments) {
+    const auto found = pace.find(experiment.name);
+    const bool may_have = experiment.coarse || experiment.full.size != 1;
+    if (may_have && found != pace.end()) slowest = std::max(slowest, found->second);
+  }
+  return slowest > 0 ? slowest : 1;
+}
+
 double computed_s(double seconds) { return std::max(kComputed * seconds, kLeastComputed_s); }
 
 /// Enough that computed_s() leaves these seconds, plus a margin, rounded up to two digits.
@@ -90,6 +103,13 @@ double minutes_for(double seconds) {
       std::max(seconds / (1 - kComputed), seconds + kLeastComputed_s) / kMinute_s;
   const double digit = std::pow(10, std::floor(std::log10(minutes)) - 1);
   return std::ceil(1.05 * minutes / digit) * digit;
+}
+
+/// Seconds that do allow it: more minutes are more for the checks of larger grains, too.
+double enough_s(const Work& least, double core_s) {
+  constexpr double kMostGrowing = .9;
+  const double growing = std::min(least.growing_s / core_s, kMostGrowing);
+  return (least.all_s - least.growing_s) / (1 - growing);
 }
 
 [[noreturn]] void refuse_minutes(double minutes, const Problem& problem, const Pace& pace,
@@ -122,13 +142,13 @@ Budget budget_within(double minutes, const Problem& problem, const Pace& pace, i
   const double core_s = (seconds - computed_s(kMinute_s * minutes)) * cores;
   Budget budget;
   for (const Checks& checks : kChecks) {
-    budget = budget_with(minutes, checks);
+    budget = budget_with(minutes, cores, checks);
     budget.settings.budget_s = least_budget_s(problem);
     const bool is_last = &checks == &kChecks.back();
-    const double least_s = work_of(problem, budget, pace).all_s;
-    if (least_s > core_s) {
-      if (is_last) refuse_minutes(minutes, problem, pace, cores, least_s + spent_s * cores);
-      continue;
+    const Work least = work_of(problem, budget, pace);
+    if (least.all_s > core_s) {
+      if (!is_last) continue;
+      refuse_minutes(minutes, problem, pace, cores, enough_s(least, core_s) + spent_s * cores);
     }
     grow(problem, pace, core_s, budget);
     const Work work = work_of(problem, budget, pace);
@@ -156,8 +176,14 @@ Budget budget_of_minutes(double minutes, const PreparedStudy& study,
   }
   const Pace pace = timed_pace(study, std::min(kMostTimed_s, kOfTheTime * kMinute_s * minutes),
                                is_interrupted, timed);
+  // The longest run is one of this machine.
+  Budget allowed = budget_of(minutes, study.threads / slowest_of(pace, study.problem.problem));
+  allowed.is_full = study.record.budget.is_full;
+  const Problem problem = problem_of(study.record.study, study.record.grain, allowed).problem;
   const std::chrono::duration<double> spent = Clock::now() - start;
-  return budget_within(minutes, study.problem.problem, pace, study.threads, spent.count());
+  Budget budget = budget_within(minutes, problem, pace, study.threads, spent.count());
+  budget.longest_run_s = allowed.longest_run_s;
+  return budget;
 }
 
 }  // namespace repose::calibrate

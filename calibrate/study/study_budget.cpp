@@ -23,8 +23,12 @@ std::optional<double> minutes_in(const std::string& budget) {
   return minutes;
 }
 
-Budget budget_named(const std::string& name) {
-  constexpr double kMinute_s = 60;
+namespace {
+
+constexpr double kMinute_s = 60;
+constexpr double kLongest = .5;  // fraction of the seconds of the fit
+
+Budget plain_budget(const std::string& name) {
   if (name == "quick") {
     return {.name = name,
             .description = "14 minutes of one core for the fit",
@@ -53,6 +57,23 @@ Budget budget_named(const std::string& name) {
                           .value = fmt::format("= {}:", name),
                           .rule = "must be quick, standard or paper",
                           .fix = "choose quick."});
+}
+
+}  // namespace
+
+Budget budget_named(const std::string& name) {
+  Budget budget = plain_budget(name);
+  budget.longest_run_s = kLongest * budget.settings.budget_s;
+  return budget;
+}
+
+Budget budget_of(double minutes, double cores) {
+  constexpr double kLong_minutes = 60, kOfTheTime = 1. / 16;
+  Budget budget = plain_budget(minutes < kLong_minutes ? "quick" : "standard");
+  budget.name = name_of_minutes(minutes);
+  budget.minutes = minutes;
+  budget.longest_run_s = kOfTheTime * kMinute_s * minutes * cores;
+  return budget;
 }
 
 Budget with_affordable_checks(Budget budget, const Problem& problem) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -19,12 +20,20 @@ struct Budget {
   int verification_repeats = 3;        ///< in the last check, which the verdicts are based on
   int family_sets = 2;                 ///< of the equivalence family that are checked
   bool is_full = false;                ///< every run has the study's own grains; none is coarse
+  /// The longest run that its checks have time for, s (Experiment::run_s): larger grains take the
+  /// study's place where their runs would be longer.
+  double longest_run_s = std::numeric_limits<double>::infinity();
   /// The whole study should end within this time, as estimated before it began (minutes_budget.h).
   std::optional<double> minutes = {};
 };
 
 /// "quick", "standard" or "paper". Throws base::InputError for another name.
 Budget budget_named(const std::string& name);
+
+/// A budget of minutes, whose seconds and checks are still to be found (minutes_budget.h): a full
+/// run takes at most a sixteenth of them.
+/// @param cores  that Experiment::run_s refers to and that these are worth
+Budget budget_of(double minutes, double cores);
 
 /// The same with no more checks than the budget has time for, if full runs of an experiment are so
 /// expensive that it has coarse ones: the last check has at least four repeats, those before it at

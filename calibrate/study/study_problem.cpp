@@ -57,14 +57,50 @@ double spheres_share(const dem::Study& study, const dem::ClumpShape& grain,
   return std::max(0., run_cost_s(study, twice, entry) / run_cost_s(study, grain, entry) - 1);
 }
 
-/// How much more a run takes than a coarse one beyond what fewer grains and longer steps save, each
-/// of which goes as a power of their size.
+/// The same with grains so many times as large, in the same vessels.
+double larger_cost_s(const dem::Study& study, const dem::ClumpShape& grain,
+                     const dem::ExperimentEntry& entry, double size) {
+  if (size == 1) return run_cost_s(study, grain, entry);
+  dem::Study larger = study;
+  entry.coarsen(larger.experiments.at(&entry).protocol, size);
+  return run_cost_s(larger, dem::scaled(grain, size), entry);
+}
+
+constexpr double kSizeDecimals = 100;  // sizes can be printed in full
+
+/// Sizes of the grains of full and of coarse runs; of these 1: there are none.
+struct GrainSizes {
+  double full = 1;
+  double coarse = 1;
+};
+
+/// The smallest whose runs take no longer; `coarse` and no other if the rest is hardly smaller.
+GrainSizes grain_sizes(const dem::Study& study, const dem::ClumpShape& grain,
+                       const dem::ExperimentEntry& entry, double coarse, double longest_s) {
+  constexpr double kWorthIt = 1.5;  // a fifth of the cost
+  constexpr int kHalvings = 20;
+  const auto is_too_long = [&](double size) {
+    return larger_cost_s(study, grain, entry, size) > longest_s;
+  };
+  if (!is_too_long(1)) return {.full = 1, .coarse = coarse};
+  double low = 1, high = coarse;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = std::sqrt(low * high);
+    (is_too_long(middle) ? low : high) = middle;
+  }
+  high = std::ceil(kSizeDecimals * high) / kSizeDecimals;
+  if (high * kWorthIt > coarse) return {.full = coarse, .coarse = 1};
+  return {.full = high, .coarse = coarse};
+}
+
+/// How much more a full run takes than a coarse one beyond what fewer grains and longer steps save,
+/// each of which goes as a power of their size.
 double many_grains(const dem::Study& study, const dem::ClumpShape& grain,
-                   const dem::ExperimentEntry& entry, double coarse_size) {
-  dem::Study coarse = study;
-  entry.coarsen(coarse.experiments.at(&entry).protocol, coarse_size);
-  return run_cost_s(study, grain, entry) /
-         (std::pow(coarse_size, 4) * run_cost_s(coarse, dem::scaled(grain, coarse_size), entry));
+                   const dem::ExperimentEntry& entry, const GrainSizes& sizes) {
+  if (sizes.coarse == 1) return 1;
+  return larger_cost_s(study, grain, entry, sizes.full) /
+         (std::pow(sizes.coarse / sizes.full, 4) *
+          larger_cost_s(study, grain, entry, sizes.coarse));
 }
 
 bool is_ball(const dem::CalliperSizes& sizes) {
@@ -186,8 +222,8 @@ std::vector<FixedInput> fixed_inputs_of(const dem::Study& study, const dem::Clum
       const dem::ExperimentEntry& entry = dem::experiment_named(experiment.name);
       if (!dem::has_effect(held.name, &entry)) continue;
       input.experiments.push_back(experiment.name);
-      input.step.work =
-          std::max(input.step.work, run_cost_s(changed, grain, entry) / experiment.run_s);
+      input.step.work = std::max(
+          input.step.work, run_cost_s(changed, grain, entry) / run_cost_s(study, grain, entry));
     }
     if (!input.experiments.empty()) inputs.push_back(std::move(input));
   }
@@ -207,6 +243,7 @@ class StudyProblemBuilder {
   StudyProblem make(const Budget& budget) {
     made_.problem.settings = budget.settings;
     is_coarse_allowed_ = !budget.is_full;
+    longest_run_s_ = budget.longest_run_s;
     made_.problem.settings.seed = study_.seed;
     made_.problem.parameters = open_parameters(study_);
     made_.problem.spheres = spheres_of(study_.grain, grain_.shape);
@@ -259,23 +296,28 @@ class StudyProblemBuilder {
       }
       return;
     }
-    const auto coarse = coarse_inputs(entry, described->second.protocol);
+    const GrainSizes sizes = sizes_of(entry, described->second.protocol);
+    const double model_error = described->second.model_error.value_or(entry.usual_model_error);
+    const double size_error = entry.coarse_error * (sizes.full - 1);
+    note_larger_grains(entry, sizes.full, size_error);
     made_.problem.experiments.push_back(
         {.name = name,
          .parameters = with_effect,
-         .run_s = run_cost_s(study_, grain_.shape, entry),
+         .run_s = larger_cost_s(study_, grain_.shape, entry, sizes.full),
          .is_stochastic = entry.is_stochastic,
          .measurable = measurable(entry),
          .readings_per_run = readings_per_run(entry),
          .scatter_within = entry.is_pictured ? kOneViewScatter : "",
          .real_stiffness = 1 / dem::model_for(study_, &entry).stiffness_factor,
          .spheres_share = spheres_share(study_, grain_.shape, entry),
-         .many_grains = coarse ? many_grains(study_, grain_.shape, entry, coarse->size) : 1,
+         .many_grains = many_grains(study_, grain_.shape, entry, sizes),
          .systematic_fraction = systematic.sd,
          .systematic_sd = stated_sd(measured.systematic),
          .usual_scatter = entry.usual_scatter,
-         .model_fraction = described->second.model_error.value_or(entry.usual_model_error),
-         .coarse = coarse});
+         .model_fraction = std::hypot(model_error, size_error),
+         .full = {.size = sizes.full},
+         .coarse = sizes.coarse == 1 ? std::nullopt
+                                     : std::optional(AssumedInputs{.size = sizes.coarse})});
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured)
       add(with(systematic, observable_of(measured, entry.usual_scatter)), entry, "value");
@@ -327,13 +369,24 @@ class StudyProblemBuilder {
         entry.name, base::kUsualDefinition.name, base::kUsualDefinition.description));
   }
 
-  /// For coarse runs, if the budget wants them and they are worthwhile.
-  std::optional<AssumedInputs> coarse_inputs(const dem::ExperimentEntry& entry,
-                                             const dem::Protocol& protocol) const {
-    constexpr double kDecimals = 100;  // rounded so that it can be printed in full
-    const auto size = coarse_size(entry, protocol, grain_.shape);
-    if (!is_coarse_allowed_ || !size) return std::nullopt;
-    return AssumedInputs{.size = std::round(kDecimals * *size) / kDecimals};
+  /// Larger ones if the budget wants them and they are worthwhile.
+  GrainSizes sizes_of(const dem::ExperimentEntry& entry, const dem::Protocol& protocol) const {
+    const auto coarse = coarse_size(entry, protocol, grain_.shape);
+    if (!is_coarse_allowed_ || !coarse) return {};
+    const double rounded = std::round(kSizeDecimals * *coarse) / kSizeDecimals;
+    return grain_sizes(study_, grain_.shape, entry, rounded, longest_run_s_);
+  }
+
+  void note_larger_grains(const dem::ExperimentEntry& entry, double size, double error) {
+    constexpr double kPercent = 100;
+    if (size == 1) return;
+    made_.notes.push_back(fmt::format(
+        "[experiment.{}] one run with the study's own grains would take {:.2g} times as long as "
+        "this budget allows, so none is made: the fit and its checks use grains {:.3g} times as "
+        "large in the same vessels, and a model error of {:.2g} % is added for what that may "
+        "change. Fix, to use the study's own: a larger budget, or --fidelity full.",
+        entry.name, run_cost_s(study_, grain_.shape, entry) / longest_run_s_, size,
+        kPercent * error));
   }
 
   int readings_per_run(const dem::ExperimentEntry& entry) const {
@@ -386,6 +439,7 @@ class StudyProblemBuilder {
   const dem::Study& study_;
   const dem::ClumpFile& grain_;
   bool is_coarse_allowed_ = false;
+  double longest_run_s_ = 0;
   StudyProblem made_;
   std::vector<Observable>* into_ = &made_.problem.observables;  ///< fitted, or held out
 };

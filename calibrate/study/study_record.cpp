@@ -1,5 +1,6 @@
 #include "calibrate/study/study_record.h"
 
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -119,22 +120,25 @@ Json limits_json(const Budget& budget) {
           {"check_rounds", budget.check_rounds},
           {"round_repeats", budget.round_repeats},
           {"verification_repeats", budget.verification_repeats},
-          {"family_sets", budget.family_sets}};
+          {"family_sets", budget.family_sets},
+          {"longest_run_s", budget.longest_run_s}};
 }
 
 std::optional<Budget> limits_in(const Json& json) {
   if (!json.contains("limits")) return std::nullopt;
   const Json& limits = json.at("limits");
-  return Budget{.name = json.at("name"),
-                .description = json.at("description"),
-                .settings = {.budget_s = limits.at("core_s"),
-                             .max_jobs = limits.at("max_jobs"),
-                             .max_rounds = limits.at("max_rounds")},
-                .check_rounds = limits.value("check_rounds", kMaxCheckRounds),
-                .round_repeats = limits.at("round_repeats"),
-                .verification_repeats = limits.at("verification_repeats"),
-                .family_sets = limits.at("family_sets"),
-                .minutes = limits.at("minutes").get<double>()};
+  return Budget{
+      .name = json.at("name"),
+      .description = json.at("description"),
+      .settings = {.budget_s = limits.at("core_s"),
+                   .max_jobs = limits.at("max_jobs"),
+                   .max_rounds = limits.at("max_rounds")},
+      .check_rounds = limits.value("check_rounds", kMaxCheckRounds),
+      .round_repeats = limits.at("round_repeats"),
+      .verification_repeats = limits.at("verification_repeats"),
+      .family_sets = limits.at("family_sets"),
+      .longest_run_s = limits.value("longest_run_s", std::numeric_limits<double>::infinity()),
+      .minutes = limits.at("minutes").get<double>()};
 }
 
 Json notes_json(const StudyNotes& notes) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -153,7 +154,7 @@ std::optional<double> minutes_of(const CalibrateArguments& arguments, CalibrateP
                             kMax_minutes, "leave it out for --budget quick");
 }
 
-calibrate::Budget budget_of(double minutes, const CalibratePlan& plan) {
+calibrate::Budget timed_budget(double minutes, const CalibratePlan& plan) {
   std::optional<Progress> progress;
   return calibrate::budget_of_minutes(minutes, plan, watch_for_interrupt(),
                                       [&](std::size_t done, std::size_t of) {
@@ -174,12 +175,15 @@ CalibratePlan plan_calibrate(const CalibrateArguments& arguments) {
       plan.problem =
           calibrate::problem_of(plan.record.study, plan.record.grain, plan.record.budget);
     };
-    make_problem();
-    if (!minutes) return;
     const bool is_full = plan.record.budget.is_full;
-    plan.record.budget = budget_of(*minutes, plan);
-    plan.record.budget.is_full = is_full;
-    make_problem();
+    const auto take = [&](calibrate::Budget budget) {
+      plan.record.budget = std::move(budget);
+      plan.record.budget.is_full = is_full;
+      make_problem();
+    };
+    if (!minutes) return make_problem();
+    take(calibrate::budget_of(*minutes, plan.threads));
+    take(timed_budget(*minutes, plan));
   });
   plan.notes.insert(plan.notes.end(), plan.problem.notes.begin(), plan.problem.notes.end());
   return plan;

@@ -183,6 +183,9 @@ struct ExperimentEntry {
   std::optional<double> (*coarse_size)(const ClumpShape& grain, const Protocol& protocol) = nullptr;
   /// Adapts the protocol to grains enlarged by that factor. Null if coarse_size is.
   void (*coarsen)(Protocol& protocol, double size) = nullptr;
+  /// How much its readings may change with that, as a fraction of them (standard deviation) for
+  /// each time the size that is added: double the size has once this. Source: docs/simulating.md.
+  double coarse_error = 0;
 };
 
 /// All experiments, in listing order.

@@ -444,7 +444,8 @@ ExperimentEntry heap_entry() {
                      const Protocol& /*protocol*/) { return from_to(-90, 90); },
       .cost_s = cost_of_heap_s,
       .coarse_size = coarse_size_of_heap,
-      .coarsen = coarsen_heap};
+      .coarsen = coarsen_heap,
+      .coarse_error = .1};
 }
 
 }  // namespace repose::dem

@@ -24,6 +24,7 @@ namespace {
 
 using repose::testing::TemporaryFolder;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::Ge;
 using ::testing::HasSubstr;
 using ::testing::Le;
@@ -164,6 +165,50 @@ TEST_F(CoarseStudy, ARunOfManyGrainsTakesLongerThanTheirNumber) {
   EXPECT_EQ(dem::many_grains_factor(5000), 1.2);
   EXPECT_EQ(dem::many_grains_factor(1e6), 2.9);
   EXPECT_NEAR(dem::many_grains_factor(8660), 1.6, .01) << "between, by the logarithm";
+}
+
+TEST_F(CoarseStudy, FullRunsHaveTheSmallestGrainsWhoseRunsTheBudgetAllows) {
+  StudyRecord study = record();
+  const Experiment own = experiment_named(problem_in(study), "heap");
+  EXPECT_EQ(own.full.size, 1);
+  study.budget.longest_run_s = .5 * own.run_s;
+  const StudyProblem made = problem_of(study.study, study.grain, study.budget);
+  const Experiment& heap = experiment_named(made.problem, "heap");
+  EXPECT_LE(heap.run_s, study.budget.longest_run_s);
+  EXPECT_GT(heap.run_s, .9 * study.budget.longest_run_s) << "no larger than needed";
+  EXPECT_NEAR(heap.full.size, std::pow(2, .25), .02);
+  EXPECT_EQ(heap.coarse, own.coarse);
+  EXPECT_NEAR(usual_run_s(heap), usual_run_s(own), .05 * usual_run_s(own));
+  EXPECT_EQ(job_at(made.problem, heap, Point(made.problem.parameters.size(), .5), 3).inputs,
+            heap.full);
+  const double added = .1 * (heap.full.size - 1);
+  EXPECT_NEAR(heap.model_fraction, std::hypot(own.model_fraction, added), 1e-12);
+  EXPECT_NEAR(made.problem.observables.back().model_sd, 20 * heap.model_fraction, 1e-9);
+  EXPECT_THAT(made.notes, Contains(AllOf(HasSubstr("2 times as long as this budget allows"),
+                                         HasSubstr("model error"), HasSubstr("--fidelity full"))));
+  EXPECT_EQ(experiment_named(made.problem, "drop").full.size, 1);
+  study.budget.is_full = true;
+  EXPECT_EQ(experiment_named(problem_in(study), "heap").full.size, 1);
+}
+
+TEST_F(CoarseStudy, WithHardlyAnyTimeAllRunsAreCoarse) {
+  StudyRecord study = record();
+  const Experiment own = experiment_named(problem_in(study), "heap");
+  study.budget.longest_run_s = usual_run_s(own);
+  const Experiment heap = experiment_named(problem_in(study), "heap");
+  EXPECT_FALSE(heap.coarse);
+  EXPECT_EQ(heap.full, *own.coarse);
+  EXPECT_NEAR(heap.run_s, usual_run_s(own), .05 * heap.run_s);
+}
+
+TEST_F(CoarseStudy, WhatItsMinutesAllowIsKeptInTheFolder) {
+  const std::filesystem::path kept = folder_.path() / "kept";
+  std::filesystem::create_directory(kept);
+  StudyRecord study = record();
+  study.budget = budget_of(10, 2);
+  EXPECT_EQ(study.budget.longest_run_s, 75) << "a sixteenth of twenty minutes";
+  write_study_record(kept, study);
+  EXPECT_EQ(read_study_record(kept).budget.longest_run_s, 75);
 }
 
 TEST_F(CoarseStudy, ItsRoundsAreForeseenAsCoarseRuns) {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "calibrate/fit/best_places.h"
+#include "calibrate/fit/check_sample.h"
 #include "calibrate/fit/gaussian_process.h"
 #include "calibrate/fit/joint_fit.h"
 #include "calibrate/fit/points.h"
@@ -207,6 +208,19 @@ TEST(CoarseRuns, WithoutFullOnesTheirShiftIsUnknownAndFullOnesTellIt) {
   EXPECT_LT(std::abs(none.shift), none.uncertainty);
   EXPECT_GT(none.uncertainty, 1.5) << "of readings that scatter by 5 degrees";
   EXPECT_LT(some.uncertainty, .7 * none.uncertainty);
+}
+
+TEST(CoarseRuns, FullOnesAreThoseOfTheirOwnSizeWhicheverThatIs) {
+  Problem problem = coarse_problem();
+  fake::Runs runs = first_and_checked(problem, 2);
+  fake::experiment_of(problem, "heap").full = {.size = 1.3};
+  const fake::Runs checks = first_and_checked(problem, 3);
+  runs.insert(runs.end(), checks.end() - 3, checks.end());
+  EXPECT_EQ(checks.back().job.inputs.size, 1.3);
+  const JointFit fit = fit_jointly(problem, runs);
+  EXPECT_EQ(fit.surrogates.back().full_runs(), 3) << "heaps of the study's own are no part of it";
+  EXPECT_EQ(fit.surrogates.back().full_size, 1.3);
+  EXPECT_EQ(check_sample(problem, fake::kTruth, problem.observables.back(), runs).count(), 3);
 }
 
 double heap_seconds(const Problem& problem, const fake::Runs& runs) {

@@ -356,9 +356,9 @@ TEST_F(StudyReport, UnfinishedStudiesTellRunsOfLargerGrains) {
     run.timestep_s = 1e-6;
     folder_.write(fmt::format("runs/{}.json", number), text_of(run));
   }
-  EXPECT_THAT(
-      table_in(made(), "response_drop_particle_wall_restitution.csv"),
-      AllOf(HasSubstr("simulated runs,0.2,7,,\n"), HasSubstr("runs of larger grains,0.5,7,,\n")));
+  EXPECT_THAT(table_in(made(), "response_drop_particle_wall_restitution.csv"),
+              AllOf(HasSubstr("simulated runs,0.2,7,,\n"),
+                    HasSubstr("coarse runs (larger grains),0.5,7,,\n")));
 }
 
 TEST_F(StudyReport, ResultsOfAnotherStudyAreNotShown) {

@@ -439,6 +439,20 @@ TEST(CoarseText, SaysWhatIsAssumedBeforeThereIsARunOfTheStudysOwnGrains) {
   EXPECT_THAT(coarse_text(joint), HasSubstr("which is assumed: none of the study's own"));
 }
 
+TEST(CoarseText, SaysThatNoRunHadTheStudysOwnGrains) {
+  StudyResult result = test::joint_result();
+  JointResult& joint = joint_in(result);
+  for (SurrogateQuality& surrogate : joint.surrogates) surrogate.full_size = 1.46;
+  EXPECT_THAT(coarse_text(joint),
+              AllOf(HasSubstr("no run of drop had the study's own grains"),
+                    HasSubstr("full runs and checks were of grains 1.46 times as large"),
+                    HasSubstr("beside those 1.46 times as large"), Not(HasSubstr("assumed"))));
+  for (SurrogateQuality& surrogate : joint.surrogates) surrogate.coarse->runs = surrogate.runs;
+  EXPECT_THAT(coarse_text(joint), HasSubstr("which is assumed: none of these"));
+  for (SurrogateQuality& surrogate : joint.surrogates) surrogate.coarse.reset();
+  EXPECT_THAT(coarse_text(joint), HasSubstr("no run of drop had the study's own grains"));
+}
+
 TEST(AgreementText, AVerdictThatRestsOnABoundSaysWhatTheBoundIs) {
   ResultParameter parameter;
   parameter.verdict = Verdict::one_sided;

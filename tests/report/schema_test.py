@@ -91,7 +91,7 @@ OPTIONAL = {"size_sd_percent", "known_before", "simulated", "extent", "additions
             "degrees_of_freedom", "model_error_scale", "model_uncertainty", "model_sd",
             "assumed_scatter", "bench_correlation", "bounds_are", "useful_half_width", "systematic",
             "tolerance_from", "readings_to_decide", "possible", "hour", "checked_at", "repeats", "repeat_sd",
-            "reading_sd", "engine", "coarse", "size", "mixed", "grain_size", "provisional"}
+            "reading_sd", "engine", "coarse", "full_size", "size", "mixed", "grain_size", "provisional"}
 
 
 def undescribed(schema, place="schema"):
