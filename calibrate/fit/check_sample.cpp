@@ -23,14 +23,14 @@ double CheckSample::sd() const {
 
 CheckSample check_sample(const Problem& problem, const std::vector<double>& values,
                          const Observable& observable, const std::vector<Run>& runs,
-                         const std::optional<AssumedInputs>& asked) {
+                         const std::optional<AssumedInputs>& inputs) {
   const Experiment& experiment = experiment_named(problem, observable.experiment);
-  const AssumedInputs inputs = asked.value_or(experiment.full);
+  const AssumedInputs wanted = inputs.value_or(experiment.full);
   const Job at = job_at(problem, experiment, to_unit(problem, values), 0);
-  CheckSample sample{.readings = {}, .is_coarse = inputs.size != experiment.full.size};
+  CheckSample sample{.readings = {}, .is_coarse = wanted.size != experiment.full.size};
   for (const Run& run : runs) {
     if (run.job.experiment != at.experiment || run.job.values != at.values) continue;
-    if (run.job.inputs != inputs) continue;
+    if (run.job.inputs != wanted) continue;
     if (experiment.is_stochastic && run.job.seed < kFirstCheckSeed) continue;
     const auto found = run.readings.find(observable.reading);
     if (run.failure.empty() && found != run.readings.end() && std::isfinite(found->second)) {

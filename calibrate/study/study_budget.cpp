@@ -26,8 +26,6 @@ std::optional<double> minutes_in(const std::string& budget) {
 namespace {
 
 constexpr double kMinute_s = 60;
-constexpr double kLongest = .5;  // fraction of the seconds of the fit
-
 Budget plain_budget(const std::string& name) {
   if (name == "quick") {
     return {.name = name,
@@ -63,12 +61,12 @@ Budget plain_budget(const std::string& name) {
 
 Budget budget_named(const std::string& name) {
   Budget budget = plain_budget(name);
-  budget.longest_run_s = kLongest * budget.settings.budget_s;
+  budget.longest_run_s = budget.settings.budget_s;
   return budget;
 }
 
 Budget budget_of(double minutes, double cores) {
-  constexpr double kLong_minutes = 60, kOfTheTime = 1. / 16;
+  constexpr double kLong_minutes = 60, kOfTheTime = 1. / 12;
   Budget budget = plain_budget(minutes < kLong_minutes ? "quick" : "standard");
   budget.name = name_of_minutes(minutes);
   budget.minutes = minutes;

@@ -20,8 +20,8 @@ struct Budget {
   int verification_repeats = 3;        ///< in the last check, which the verdicts are based on
   int family_sets = 2;                 ///< of the equivalence family that are checked
   bool is_full = false;                ///< every run has the study's own grains; none is coarse
-  /// The longest run that its checks have time for, s (Experiment::run_s): larger grains take the
-  /// study's place where their runs would be longer.
+  /// The longest run that its checks have time for, s (Experiment::run_s): where the study's own
+  /// grains would take longer, larger ones take their place.
   double longest_run_s = std::numeric_limits<double>::infinity();
   /// The whole study should end within this time, as estimated before it began (minutes_budget.h).
   std::optional<double> minutes = {};
@@ -31,7 +31,7 @@ struct Budget {
 Budget budget_named(const std::string& name);
 
 /// A budget of minutes, whose seconds and checks are still to be found (minutes_budget.h): a full
-/// run takes at most a sixteenth of them.
+/// run takes at most a twelfth of them.
 /// @param cores  that Experiment::run_s refers to and that these are worth
 Budget budget_of(double minutes, double cores);
 

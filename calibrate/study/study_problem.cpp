@@ -321,18 +321,21 @@ class StudyProblemBuilder {
     into_ = described->second.is_held_out ? &made_.problem.held_out : &made_.problem.observables;
     if (is_measured)
       add(with(systematic, observable_of(measured, entry.usual_scatter)), entry, "value");
-    for (const dem::MeasuredReading& reading : measured.also) {
-      Observable observable;
-      observable.mean = reading.mean;
-      observable.sd = reading.sd;
-      observable.n = reading.count.value_or(1);
-      observable.tolerance = reading.tolerance;
-      share(reading.systematic, observable);
-      const dem::Reading& known = dem::reading_named(entry, reading.name);
-      observable.has_own_trials = known.has_own_trials;
-      if (known.shares_systematic) observable = with(systematic, observable);
-      add(observable, entry, reading.name);
-    }
+    for (const dem::MeasuredReading& reading : measured.also) add(reading, systematic, entry);
+  }
+
+  void add(const dem::MeasuredReading& reading, const dem::SystematicFraction& systematic,
+           const dem::ExperimentEntry& entry) {
+    Observable observable;
+    observable.mean = reading.mean;
+    observable.sd = reading.sd;
+    observable.n = reading.count.value_or(1);
+    observable.tolerance = reading.tolerance;
+    share(reading.systematic, observable);
+    const dem::Reading& known = dem::reading_named(entry, reading.name);
+    observable.has_own_trials = known.has_own_trials;
+    if (known.shares_systematic) observable = with(systematic, observable);
+    add(observable, entry, reading.name);
   }
 
   void note_pictures_of_heaps(const dem::Measured& measured) {

@@ -445,7 +445,7 @@ ExperimentEntry heap_entry() {
       .cost_s = cost_of_heap_s,
       .coarse_size = coarse_size_of_heap,
       .coarsen = coarsen_heap,
-      .coarse_error = .1};
+      .coarse_error = .2};
 }
 
 }  // namespace repose::dem

@@ -181,7 +181,7 @@ TEST_F(CoarseStudy, FullRunsHaveTheSmallestGrainsWhoseRunsTheBudgetAllows) {
   EXPECT_NEAR(usual_run_s(heap), usual_run_s(own), .05 * usual_run_s(own));
   EXPECT_EQ(job_at(made.problem, heap, Point(made.problem.parameters.size(), .5), 3).inputs,
             heap.full);
-  const double added = .1 * (heap.full.size - 1);
+  const double added = .2 * (heap.full.size - 1);
   EXPECT_NEAR(heap.model_fraction, std::hypot(own.model_fraction, added), 1e-12);
   EXPECT_NEAR(made.problem.observables.back().model_sd, 20 * heap.model_fraction, 1e-9);
   EXPECT_THAT(made.notes, Contains(AllOf(HasSubstr("2 times as long as this budget allows"),
@@ -206,9 +206,9 @@ TEST_F(CoarseStudy, WhatItsMinutesAllowIsKeptInTheFolder) {
   std::filesystem::create_directory(kept);
   StudyRecord study = record();
   study.budget = budget_of(10, 2);
-  EXPECT_EQ(study.budget.longest_run_s, 75) << "a sixteenth of twenty minutes";
+  EXPECT_EQ(study.budget.longest_run_s, 100) << "a twelfth of twenty minutes";
   write_study_record(kept, study);
-  EXPECT_EQ(read_study_record(kept).budget.longest_run_s, 75);
+  EXPECT_EQ(read_study_record(kept).budget.longest_run_s, 100);
 }
 
 TEST_F(CoarseStudy, ItsRoundsAreForeseenAsCoarseRuns) {
