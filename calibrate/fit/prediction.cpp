@@ -198,8 +198,9 @@ void judge(const Problem& problem, const Observable& observable, const Uncertain
   const UncertainMean bench =
       with_known({prediction.measured, std::sqrt(scatter2), degrees_of_scatter(observable)},
                  observable.systematic_sd);
-  // An error of the model makes a difference no less real, only less of a surprise.
-  const UncertainMean difference = difference_of(of_sets, bench);
+  // An error of the model makes a difference no less real, only less of a surprise; that of larger
+  // grains does both.
+  const UncertainMean difference = with_known(difference_of(of_sets, bench), observable.size_sd);
   const UncertainMean by_chance = difference_of(real, bench);
   prediction.difference_sigma = by_chance.value / by_chance.uncertainty;
   prediction.chance = chance_of(by_chance);

@@ -88,6 +88,7 @@ struct Experiment {
   double usual_scatter = .05;
   /// Possible model error as a fraction of any bench's reading: Observable::model_sd.
   double model_fraction = 0;
+  double size_fraction = 0;  ///< part of it due to larger grains in full runs: Observable::size_sd
   /// Full runs, which the fit predicts and checks: larger grains if runs of the study's own would
   /// take too long, with what that may change in model_fraction.
   AssumedInputs full = {};
@@ -136,6 +137,9 @@ struct Observable {
   /// Standard deviation of the model's error in the reading at the best possible coefficients,
   /// given its clump and its contact laws: known beforehand.
   double model_sd = 0;
+  /// Part of it that is there because no run has the study's own grains: unlike the rest, it leaves
+  /// open what these would read.
+  double size_sd = 0;
   bool has_own_trials = false;  ///< on the bench: its scatter is independent of other readings
   /// A difference between bench and simulation up to this does not matter; see margin_of().
   std::optional<double> tolerance = {};

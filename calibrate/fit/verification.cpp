@@ -211,7 +211,7 @@ Agreement compared(const Observable& observable, const CheckSample& sample,
                    const UncertainMean& simulated, double measured_uncertainty,
                    const std::optional<Interval>& possible) {
   constexpr double kFollowed = .05;  // with less left of a true difference, it cannot be seen
-  const UncertainMean whole = differences.whole(i);
+  const UncertainMean whole = with_known(differences.whole(i), observable.size_sd);
   const Margin margin = margin_of(observable, possible);
   Agreement agreement{.observable = observable.name,
                       .measured = observable.mean,

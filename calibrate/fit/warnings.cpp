@@ -167,7 +167,10 @@ std::vector<std::string> warnings_for(const Problem& problem, const Solution& so
     warn_of_reach(problem, solution, i, fitted, warnings);
     warn_of_systematic(problem.observables[i], warnings);
     warn_of_scatter(problem.observables[i], fitted, warnings);
-    warn_of_likeness(problem.observables[i], fitted, quality.runs, warnings);
+    // Larger grains scatter more than the study's.
+    if (quality.full_size == 1) {
+      warn_of_likeness(problem.observables[i], fitted, quality.runs, warnings);
+    }
     if (quality.inflation > kDoubtful) {
       warnings.push_back(fmt::format(
           "{}: the surrogate's errors were {:.1f} times its uncertainty, which was increased "

@@ -45,6 +45,7 @@ double scores_of_scatter(const JointResult& joint) {
   for (std::size_t k = 0; k < joint.observables.size(); ++k) {
     const ResultObservable& observable = joint.observables[k];
     if (observable.sd_assumed || k >= joint.surrogates.size()) continue;
+    if (joint.surrogates[k].full_size != 1) continue;  // larger grains scatter more
     sum += score_of_scatter(observable.measured_sd, bench_readings(observable) - 1,
                             observable.predicted_sd, joint.surrogates[k].scatter_df());
   }

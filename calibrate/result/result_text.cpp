@@ -320,7 +320,8 @@ std::string coarse_text(const JointResult& joint) {
     const bool is_own = surrogate.full_size == 1;
     const std::string full =
         is_own ? "the study's" : fmt::format("those {:.3g} times as large", surrogate.full_size);
-    if (!is_own) {
+    // Once for each experiment: the value's comes first.
+    if (!is_own && surrogate.observable.find('.') == std::string::npos) {
       text += fmt::format(
           "{}no run of {} had the study's own grains, which would take longer than the budget "
           "allows: full runs and checks were of grains {:.3g} times as large, and what that may "

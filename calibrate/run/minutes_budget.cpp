@@ -49,7 +49,7 @@ Budget budget_with(double minutes, int cores, const Checks& checks) {
 struct Work {
   double all_s = 0;
   double checks_s = 0;
-  double growing_s = 0;  ///< of these, those of larger grains: as long as the time given allows
+  double growing_s = 0;  ///< full runs of larger grains: as long as the time given allows
 };
 
 Work work_of(Problem problem, const Budget& budget, const Pace& pace) {
@@ -62,9 +62,9 @@ Work work_of(Problem problem, const Budget& budget, const Pace& pace) {
     for (const auto& [phase, of_phase] : estimate.phases) {
       const double seconds = pace.at(estimate.experiment) * of_phase.seconds;
       work.all_s += seconds;
-      if (phase != Phase::checks && phase != Phase::equal_sets) continue;
-      work.checks_s += seconds;
-      if (is_larger) work.growing_s += seconds;
+      const bool is_check = phase == Phase::checks || phase == Phase::equal_sets;
+      if (is_check) work.checks_s += seconds;
+      if (is_larger && (is_check || phase == Phase::held_out)) work.growing_s += seconds;
     }
   }
   return work;
@@ -107,8 +107,9 @@ double minutes_for(double seconds) {
 
 /// Seconds that do allow it: more minutes are more for the checks of larger grains, too.
 double enough_s(const Work& least, double core_s) {
-  constexpr double kMostGrowing = .9;
-  const double growing = std::min(least.growing_s / core_s, kMostGrowing);
+  constexpr double kMostGrowing = .5;  // as budget_of() allows
+  const double growing = core_s > 0 ? std::min(least.growing_s / core_s, kMostGrowing)
+                                    : (least.growing_s > 0 ? kMostGrowing : 0);
   return (least.all_s - least.growing_s) / (1 - growing);
 }
 
@@ -177,7 +178,7 @@ Budget budget_of_minutes(double minutes, const PreparedStudy& study,
   const Pace pace = timed_pace(study, std::min(kMostTimed_s, kOfTheTime * kMinute_s * minutes),
                                is_interrupted, timed);
   // The longest run is one of this machine.
-  Budget allowed = budget_of(minutes, study.threads / slowest_of(pace, study.problem.problem));
+  Budget allowed = budget_of(minutes, study.threads, slowest_of(pace, study.problem.problem));
   allowed.is_full = study.record.budget.is_full;
   const Problem problem = problem_of(study.record.study, study.record.grain, allowed).problem;
   const std::chrono::duration<double> spent = Clock::now() - start;

@@ -138,6 +138,7 @@ PreparedStudy prepared(const StudyRequest& request, const Note& note) {
   record.settings = request.settings;
   record.method = request.method;
   record.budget = request.budget;
+  record.budget.is_full = request.budget.is_full || request.method == "paper";
   record.study = dem::read_study(request.study, request.settings);
   study.threads =
       request.threads.value_or(record.study.threads.value_or(tbb::info::default_concurrency()));

@@ -65,12 +65,13 @@ Budget budget_named(const std::string& name) {
   return budget;
 }
 
-Budget budget_of(double minutes, double cores) {
-  constexpr double kLong_minutes = 60, kOfTheTime = 1. / 12;
+Budget budget_of(double minutes, int cores, double pace) {
+  constexpr double kLong_minutes = 60, kOfTheWork = 1. / 12, kOfTheTime = 1. / 6;
   Budget budget = plain_budget(minutes < kLong_minutes ? "quick" : "standard");
   budget.name = name_of_minutes(minutes);
   budget.minutes = minutes;
-  budget.longest_run_s = kOfTheTime * kMinute_s * minutes * cores;
+  // Checks follow one another, and each run has one core.
+  budget.longest_run_s = std::min(kOfTheWork * cores, kOfTheTime) * kMinute_s * minutes / pace;
   return budget;
 }
 
@@ -79,7 +80,8 @@ Budget with_affordable_checks(Budget budget, const Problem& problem) {
   constexpr int kFewest = 4, kFewestOfRound = 2, kFew = 12, kFewRounds = 2;
   double dearest_s = 0;
   for (const Experiment& experiment : measured_experiments(problem)) {
-    if (experiment.coarse) dearest_s = std::max(dearest_s, experiment.run_s);
+    if (experiment.coarse || experiment.full.size != 1)
+      dearest_s = std::max(dearest_s, experiment.run_s);
   }
   if (dearest_s == 0 || budget.minutes) return budget;
   const double affordable = kChecks * problem.settings.budget_s / dearest_s;

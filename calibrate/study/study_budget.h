@@ -31,14 +31,15 @@ struct Budget {
 Budget budget_named(const std::string& name);
 
 /// A budget of minutes, whose seconds and checks are still to be found (minutes_budget.h): a full
-/// run takes at most a twelfth of them.
-/// @param cores  that Experiment::run_s refers to and that these are worth
-Budget budget_of(double minutes, double cores);
+/// run takes at most a twelfth of the time of all cores, and a sixth of the minutes.
+/// @param pace  duration of a run here, as a multiple of Experiment::run_s
+Budget budget_of(double minutes, int cores, double pace = 1);
 
 /// The same with no more checks than the budget has time for, if full runs of an experiment are so
-/// expensive that it has coarse ones: the last check has at least four repeats, those before it at
-/// least two; with fewer than twelve there is at most one before it, and equally good sets are not
-/// checked. Other budgets are unchanged, as are those of minutes, which plan their own checks.
+/// expensive that it has coarse ones, or larger grains: the last check has at least four repeats,
+/// those before it at least two; with fewer than twelve there is at most one before it, and equally
+/// good sets are not checked. Other budgets are unchanged, as are those of minutes, which plan
+/// their own checks.
 Budget with_affordable_checks(Budget budget, const Problem& problem);
 
 /// "20min", the name of a budget of that many minutes, and back: std::nullopt for another name.

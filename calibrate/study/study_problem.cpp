@@ -74,10 +74,12 @@ struct GrainSizes {
   double coarse = 1;
 };
 
-/// The smallest whose runs take no longer; `coarse` and no other if the rest is hardly smaller.
+/// The smallest whose runs take no longer, if they are not too large; `coarse` and no other if the
+/// rest is hardly smaller.
 GrainSizes grain_sizes(const dem::Study& study, const dem::ClumpShape& grain,
                        const dem::ExperimentEntry& entry, double coarse, double longest_s) {
   constexpr double kWorthIt = 1.5;  // a fifth of the cost
+  constexpr double kMost = 2.5;     // of still larger grains there may be no heap
   constexpr int kHalvings = 20;
   const auto is_too_long = [&](double size) {
     return larger_cost_s(study, grain, entry, size) > longest_s;
@@ -88,8 +90,8 @@ GrainSizes grain_sizes(const dem::Study& study, const dem::ClumpShape& grain,
     const double middle = std::sqrt(low * high);
     (is_too_long(middle) ? low : high) = middle;
   }
-  high = std::ceil(kSizeDecimals * high) / kSizeDecimals;
-  if (high * kWorthIt > coarse) return {.full = coarse, .coarse = 1};
+  high = std::min(kMost, std::ceil(kSizeDecimals * high) / kSizeDecimals);
+  if (high * kWorthIt > coarse && coarse <= kMost) return {.full = coarse, .coarse = 1};
   return {.full = high, .coarse = coarse};
 }
 
@@ -315,6 +317,7 @@ class StudyProblemBuilder {
          .systematic_sd = stated_sd(measured.systematic),
          .usual_scatter = entry.usual_scatter,
          .model_fraction = std::hypot(model_error, size_error),
+         .size_fraction = size_error,
          .full = {.size = sizes.full},
          .coarse = sizes.coarse == 1 ? std::nullopt
                                      : std::optional(AssumedInputs{.size = sizes.coarse})});
@@ -375,9 +378,18 @@ class StudyProblemBuilder {
   /// Larger ones if the budget wants them and they are worthwhile.
   GrainSizes sizes_of(const dem::ExperimentEntry& entry, const dem::Protocol& protocol) const {
     const auto coarse = coarse_size(entry, protocol, grain_.shape);
-    if (!is_coarse_allowed_ || !coarse) return {};
+    const dem::StudyExperiment& described = study_.experiments.at(&entry);
+    // Larger grains are fewer, which a count of them would show.
+    const bool is_counted =
+        std::ranges::any_of(described.measured.also, [&](const dem::MeasuredReading& reading) {
+          return dem::reading_named(entry, reading.name).unit.empty();
+        });
+    if (!is_coarse_allowed_ || !coarse || is_counted) return {};
+    // A prediction makes many more runs than checks do.
+    constexpr double kOfPrediction = .25;
     const double rounded = std::round(kSizeDecimals * *coarse) / kSizeDecimals;
-    return grain_sizes(study_, grain_.shape, entry, rounded, longest_run_s_);
+    return grain_sizes(study_, grain_.shape, entry, rounded,
+                       (described.is_held_out ? kOfPrediction : 1) * longest_run_s_);
   }
 
   void note_larger_grains(const dem::ExperimentEntry& entry, double size, double error) {
@@ -385,9 +397,10 @@ class StudyProblemBuilder {
     if (size == 1) return;
     made_.notes.push_back(fmt::format(
         "[experiment.{}] one run with the study's own grains would take {:.2g} times as long as "
-        "this budget allows, so none is made: the fit and its checks use grains {:.3g} times as "
-        "large in the same vessels, and a model error of {:.2g} % is added for what that may "
-        "change. Fix, to use the study's own: a larger budget, or --fidelity full.",
+        "this budget allows, so none is made: what is to be compared with the bench is simulated "
+        "with grains {:.3g} times as large in the same vessels, and a model error of {:.2g} % is "
+        "added for what that may change. Fix, to use the study's own: a larger budget, or "
+        "--fidelity full.",
         entry.name, run_cost_s(study_, grain_.shape, entry) / longest_run_s_, size,
         kPercent * error));
   }
@@ -421,6 +434,7 @@ class StudyProblemBuilder {
     observable.unit = unit_of(entry, reading);
     observable.model_sd =
         made_.problem.experiments.back().model_fraction * std::abs(observable.mean);
+    observable.size_sd = made_.problem.experiments.back().size_fraction * std::abs(observable.mean);
     const dem::Range readable = dem::readable_in(observable.unit);
     observable.least = readable.from;
     observable.most = readable.to;

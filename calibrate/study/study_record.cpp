@@ -1,5 +1,6 @@
 #include "calibrate/study/study_record.h"
 
+#include <cmath>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -120,25 +121,28 @@ Json limits_json(const Budget& budget) {
           {"check_rounds", budget.check_rounds},
           {"round_repeats", budget.round_repeats},
           {"verification_repeats", budget.verification_repeats},
-          {"family_sets", budget.family_sets},
-          {"longest_run_s", budget.longest_run_s}};
+          {"family_sets", budget.family_sets}};
+}
+
+/// Without it, all full runs had the study's own grains.
+double longest_run_s_in(const Json& budget) {
+  return budget.value("longest_run_s", std::numeric_limits<double>::infinity());
 }
 
 std::optional<Budget> limits_in(const Json& json) {
   if (!json.contains("limits")) return std::nullopt;
   const Json& limits = json.at("limits");
-  return Budget{
-      .name = json.at("name"),
-      .description = json.at("description"),
-      .settings = {.budget_s = limits.at("core_s"),
-                   .max_jobs = limits.at("max_jobs"),
-                   .max_rounds = limits.at("max_rounds")},
-      .check_rounds = limits.value("check_rounds", kMaxCheckRounds),
-      .round_repeats = limits.at("round_repeats"),
-      .verification_repeats = limits.at("verification_repeats"),
-      .family_sets = limits.at("family_sets"),
-      .longest_run_s = limits.value("longest_run_s", std::numeric_limits<double>::infinity()),
-      .minutes = limits.at("minutes").get<double>()};
+  return Budget{.name = json.at("name"),
+                .description = json.at("description"),
+                .settings = {.budget_s = limits.at("core_s"),
+                             .max_jobs = limits.at("max_jobs"),
+                             .max_rounds = limits.at("max_rounds")},
+                .check_rounds = limits.value("check_rounds", kMaxCheckRounds),
+                .round_repeats = limits.at("round_repeats"),
+                .verification_repeats = limits.at("verification_repeats"),
+                .family_sets = limits.at("family_sets"),
+                .longest_run_s = longest_run_s_in(json),
+                .minutes = limits.at("minutes").get<double>()};
 }
 
 Json notes_json(const StudyNotes& notes) {
@@ -146,6 +150,9 @@ Json notes_json(const StudyNotes& notes) {
   Json budget = {{"name", study.budget}, {"description", study.budget_description}};
   if (notes.limits) budget["limits"] = limits_json(*notes.limits);
   if (study.is_mixed) budget["mixed"] = *study.is_mixed;
+  if (study.is_mixed && std::isfinite(study.longest_run_s)) {
+    budget["longest_run_s"] = study.longest_run_s;
+  }
   return {{"program", study.program},
           {"study", {{"file", study.file}, {"hash", study.hash}, {"settings", study.settings}}},
           {"method", study.method},
@@ -170,7 +177,8 @@ StudyNotes notes_in(const Json& json) {
                     .method = json.at("method"),
                     .budget = budget.at("name"),
                     .budget_description = budget.at("description"),
-                    .is_mixed = mixed_in(budget)},
+                    .is_mixed = mixed_in(budget),
+                    .longest_run_s = longest_run_s_in(budget)},
           // Earlier versions had no sheets, nor films.
           .measurement = {.sheets = sheets_in(json.value("sheets", Json::array())),
                           .pictures = pictures_in(json.at("pictures")),
@@ -197,7 +205,8 @@ StudyIdentity identity_of(const StudyRecord& record) {
           .budget_description = record.budget.description,
           .is_mixed = record.method == "joint" && has_coarse_runs(record.study, record.grain.shape)
                           ? std::optional(!record.budget.is_full)
-                          : std::nullopt};
+                          : std::nullopt,
+          .longest_run_s = record.budget.longest_run_s};
 }
 
 namespace {
@@ -272,6 +281,7 @@ StudyRecord read_study_record(const fs::path& folder) {
   record.method = notes->study.method;
   record.budget = notes->limits ? *notes->limits : budget_named(notes->study.budget);
   record.budget.is_full = !notes->study.is_mixed.value_or(false);
+  record.budget.longest_run_s = notes->study.longest_run_s;
   record.measurement = notes->measurement;
   record.grain = dem::read_clump_file(kept(folder, kClumpCopy, *notes));
   record.study =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,6 +36,8 @@ struct StudyIdentity {
   std::string budget_description;
   /// Whether some of its runs may be coarse; std::nullopt: no experiment allows coarse runs.
   std::optional<bool> is_mixed = {};
+  /// Budget::longest_run_s, saved if it is mixed.
+  double longest_run_s = std::numeric_limits<double>::infinity();
 };
 
 /// The same study, settings, method, budget and kinds of runs, regardless of the program version

@@ -102,8 +102,8 @@ CalibratePlan read_bench(const CalibrateArguments& arguments, calibrate::NoRows 
   plan.progress_file = arguments.progress_file;
   plan.record.method = arguments.method;
   attempt(plan.errors, [&] { plan.record.budget = calibrate::budget_named(arguments.budget); });
-  plan.record.budget.is_full = arguments.fidelity == "full";
-  if (!plan.record.budget.is_full && arguments.fidelity != "mixed") {
+  plan.record.budget.is_full = arguments.fidelity == "full" || arguments.method == "paper";
+  if (arguments.fidelity != "full" && arguments.fidelity != "mixed") {
     plan.errors.push_back(
         fmt::format("--fidelity = {}: must be mixed or full. Fix: leave it out for mixed.",
                     arguments.fidelity));
@@ -222,8 +222,10 @@ reports how many simulations each budget takes for what, and how long that is.
 It needs the bench readings, and saves nothing.
 
 For heaps of many small grains, most runs use fewer, larger grains in the same
-tube; how far off these are is estimated from some runs with the study's own, as
-which all checks are made. --fidelity full uses the study's own grains only.
+tube; how far off these are is estimated from some runs with the study's own.
+All checks are made with the study's own grains or, where one such run would
+take longer than the budget for the fit, with the smallest that do not.
+--fidelity full uses the study's own grains only.
 
 --rolling-models constant_torque,elastic_plastic calibrates the study with each
 of them, in folders of their own, and says which one explains the bench readings

@@ -184,6 +184,7 @@ TEST_F(CoarseStudy, FullRunsHaveTheSmallestGrainsWhoseRunsTheBudgetAllows) {
   const double added = .2 * (heap.full.size - 1);
   EXPECT_NEAR(heap.model_fraction, std::hypot(own.model_fraction, added), 1e-12);
   EXPECT_NEAR(made.problem.observables.back().model_sd, 20 * heap.model_fraction, 1e-9);
+  EXPECT_NEAR(made.problem.observables.back().size_sd, 20 * added, 1e-9);
   EXPECT_THAT(made.notes, Contains(AllOf(HasSubstr("2 times as long as this budget allows"),
                                          HasSubstr("model error"), HasSubstr("--fidelity full"))));
   EXPECT_EQ(experiment_named(made.problem, "drop").full.size, 1);
@@ -207,8 +208,23 @@ TEST_F(CoarseStudy, WhatItsMinutesAllowIsKeptInTheFolder) {
   StudyRecord study = record();
   study.budget = budget_of(10, 2);
   EXPECT_EQ(study.budget.longest_run_s, 100) << "a twelfth of twenty minutes";
+  EXPECT_EQ(budget_of(10, 16).longest_run_s, 100) << "a sixth of the minutes";
+  EXPECT_EQ(budget_of(10, 2, 2).longest_run_s, 50) << "on slower cores";
   write_study_record(kept, study);
   EXPECT_EQ(read_study_record(kept).budget.longest_run_s, 100);
+  study.budget = budget_named("standard");
+  write_study_record(kept, study);
+  EXPECT_EQ(read_study_record(kept).budget.longest_run_s, study.budget.longest_run_s);
+}
+
+TEST_F(CoarseStudy, GrainsThatAreCountedAreTheStudysOwn) {
+  StudyRecord study = record(3, std::string(kHeapOfMany) +
+                                    "[experiment.heap.also_measured]\n"
+                                    "grains_off_plate = { mean = 9, sd = 1, n = 5 }\n");
+  study.budget.longest_run_s = 1;
+  const Experiment heap = experiment_named(problem_in(study), "heap");
+  EXPECT_EQ(heap.full.size, 1);
+  EXPECT_FALSE(heap.coarse);
 }
 
 TEST_F(CoarseStudy, ItsRoundsAreForeseenAsCoarseRuns) {
